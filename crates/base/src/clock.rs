@@ -1,0 +1,38 @@
+//! The context that every advancing call receives.
+
+use serde::{Deserialize, Serialize};
+
+/// Where a step stands in time.
+///
+/// Time is `index * dt` and never a running sum, so that a resumed run sees
+/// the same bits as an unbroken one. Time 0 is the start of the shaking;
+/// settling happens before it and has a clock of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tick {
+    /// Time at the start of the step, s.
+    pub time: f64,
+    /// Length of the step, s.
+    pub dt: f64,
+    /// Number of steps taken before this one.
+    pub index: u64,
+}
+
+impl Tick {
+    /// The step number `index` of length `dt` (s).
+    #[must_use]
+    pub fn at(index: u64, dt: f64) -> Self {
+        Self { time: index as f64 * dt, dt, index }
+    }
+
+    /// Time at the end of the step, s.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        (self.index + 1) as f64 * self.dt
+    }
+
+    /// Part `k` of this step cut into `n` equal parts.
+    #[must_use]
+    pub fn substep(&self, k: u64, n: u64) -> Self {
+        Self::at(self.index * n + k, self.dt / n as f64)
+    }
+}

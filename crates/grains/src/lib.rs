@@ -1,0 +1,3 @@
+//! Discrete elements.
+pub mod grains;
+pub use grains::Grains;
