@@ -1,1 +1,8 @@
-//! placeholder
+//! The bed without grains: bed equations and the analytical models of a shaken bed.
+//!
+//! Each model has a specification in SI with `validate`, a `solve`, and a
+//! result whose `report` gives figures and tables. All are deterministic and
+//! single-threaded; a sweep runs many of them side by side.
+
+pub mod bed_equation;
+pub mod ode;
