@@ -1,1 +1,20 @@
-//! placeholder
+//! Files: checkpoints, tables, ParaView and OVITO output, the lock of a run
+//! directory. Knows bytes and no physics.
+//!
+//! Every write either succeeds or is a [`StoreError`]: no failure is logged and
+//! forgotten. Whole files are replaced atomically; growing files report their
+//! length, so that a resumed run cuts them back to its checkpoint and goes on.
+
+pub mod append;
+pub mod atomic;
+pub mod error;
+pub mod frame;
+pub mod series;
+pub mod table;
+pub mod vtk;
+
+pub use append::Appender;
+pub use error::{Cause, StoreError};
+pub use frame::{Array, Data, GrainFrame};
+pub use series::Series;
+pub use table::TableFile;
