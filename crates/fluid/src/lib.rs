@@ -1,1 +1,29 @@
-//! placeholder
+//! Incompressible flow on a staggered grid (Clément 2009, 2.2).
+//!
+//! ```text
+//! dv/dt + (v . grad) v = -grad P / rho + nu laplacian v + f     (2.24)
+//! div v = 0                                                     (2.28)
+//! ```
+//!
+//! A step predicts a velocity without (all of) the pressure, lets a coupling
+//! change it, and projects it on the divergence-free ones by a Poisson
+//! equation (2.33-2.35). Knows nothing of grains: a coupling speaks to it
+//! through [`Medium`] and [`Predicted`].
+
+pub mod boundary;
+pub mod field;
+pub mod flow;
+pub mod grid;
+pub mod medium;
+pub mod solid;
+pub mod solver;
+pub mod spec;
+
+pub use boundary::{Boundary, Profile};
+pub use field::{CellField, FaceField, Faces};
+pub use flow::{Flow, Past};
+pub use grid::{Grid, Layout};
+pub use medium::{Medium, Mixture, Resistance};
+pub use solid::Solid;
+pub use solver::{Predicted, Solver, step_limits};
+pub use spec::{Advection, Diffusion, FluidSpec, Instructions, Scheme, SpecError};
