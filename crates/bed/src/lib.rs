@@ -6,3 +6,8 @@
 
 pub mod bed_equation;
 pub mod ode;
+pub mod plug;
+pub mod shake;
+pub mod system;
+
+pub use system::{Refusals, Report, System};
