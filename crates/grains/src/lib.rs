@@ -1,3 +1,20 @@
-//! Discrete elements.
+//! Discrete elements: spheres that overlap a little and push each other apart.
+//!
+//! m dv/dt = sum of contact forces + forces from outside,
+//! I dw/dt = sum of contact torques + torques from outside.
+
+pub mod contact;
+pub mod field;
 pub mod grains;
+pub mod ledger;
+pub mod material;
+pub mod packing;
+pub mod spec;
+pub mod wall;
+
+pub use field::{Field, GrainAt, Gravity, Push};
 pub use grains::Grains;
+pub use ledger::Ledger;
+pub use material::Material;
+pub use spec::{ContactSpec, DemSpec, Integrator, Limits, PairSpec, PairTable, Search, SpecError, Sweep};
+pub use wall::{Arrangement, WallLoad, WallShape, WallSpec};
