@@ -2,8 +2,20 @@
 //!
 //! An observer reads a [`View`] and nothing else, keeps plain accumulators of
 //! fixed size (they are part of a checkpoint), and returns rows, tables and
-//! figures. Estimators are pure functions in `stats`.
+//! figures. [`Watch`] adds when it looks.
 
+pub mod accumulate;
+pub mod height;
+pub mod observer;
+#[cfg(test)]
+mod suite;
+#[cfg(test)]
+mod synthetic;
 pub mod view;
+pub mod watch;
+pub mod zones;
 
+pub use observer::menu::{MENU, Observer, keys};
+pub use observer::{Observe, Sampling, Setting};
 pub use view::{Collisions, ContactAt, FlowView, FluidAt, Needs, Partner, View, WallAt};
+pub use watch::{COMMON, Watch};
