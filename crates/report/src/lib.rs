@@ -1,1 +1,15 @@
-//! placeholder
+//! Pictures of a bed, plots, and the report that holds them in one file.
+//!
+//! Everything is drawn here, without a display, a font file or a network: the
+//! same run gives the same bytes on every machine.
+
+pub mod colour;
+pub mod html;
+pub mod plot;
+pub mod png;
+pub mod sheet;
+pub mod text;
+
+pub use html::{Content, Report};
+pub use plot::svg;
+pub use sheet::Sheet;

@@ -1,0 +1,30 @@
+//! Figures as SVG: curves with errors, maps with arrows.
+//!
+//! Drawn by hand, not by a plotting library: maps here carry arrows with a key
+//! and outlines on physical axes, colours follow a dark page, and the text of
+//! every plot is the same on every machine.
+
+mod axis;
+mod curves;
+mod legend;
+mod map;
+mod paper;
+
+use brazilnut_base::figure::{Body, Figure};
+
+/// Width of a plot, px.
+pub const WIDTH: f64 = 620.0;
+/// Height of a plot of curves, px.
+pub const HEIGHT: f64 = 390.0;
+
+/// The figure as a self-contained SVG; the caption is left to the page around it.
+#[must_use]
+pub fn svg(figure: &Figure) -> String {
+    match &figure.body {
+        Body::Curves { x, y, curves } => curves::draw(&figure.title, x, y, curves),
+        Body::Map { .. } => map::draw(figure),
+    }
+}
+
+#[cfg(test)]
+mod tests;
