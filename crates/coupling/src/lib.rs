@@ -1,1 +1,9 @@
-//! placeholder
+//! What grains and fluid hand each other.
+
+pub mod body;
+pub mod one_way;
+pub mod still;
+
+pub use body::Body;
+pub use one_way::SimpleDrag;
+pub use still::Still;
