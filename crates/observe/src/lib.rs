@@ -7,6 +7,9 @@
 pub mod accumulate;
 pub mod height;
 pub mod observer;
+pub mod phase;
+pub mod series;
+pub mod stats;
 #[cfg(test)]
 mod suite;
 #[cfg(test)]

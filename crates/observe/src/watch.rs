@@ -2,6 +2,8 @@
 
 use crate::observer::menu::{self, Observer};
 use crate::observer::{Faults, Sampling, Setting};
+use crate::series::Series;
+use crate::stats::steady::Steady;
 use crate::view::{Needs, View};
 use brazilnut_base::figure::Figure;
 use brazilnut_base::keys::{Check, Key, Kind};
@@ -46,6 +48,9 @@ pub struct Watch {
     schedule: Schedule,
     from: f64,
     until: f64,
+    /// Present until the bed has been found steady, if that is when sampling begins.
+    waiting: Option<Steady>,
+    series: Option<Series>,
     observer: Observer,
 }
 
@@ -70,10 +75,19 @@ impl Watch {
         let mut setting = *setting;
         setting.sampling = sampling(schedule, &setting);
         let observer = Observer::from_values(what, values, &setting)?;
+        let columns = observer.columns().len();
+        let segment = values.integer_opt("spectrum").map(|n| n as usize);
+        if columns == 0 && segment.is_some() {
+            return Err(fault("spectrum", "this observer keeps no series"));
+        }
+        let series = (columns > 0).then(|| Series::new(columns, setting.sampling, segment));
+        let steady = values.text_opt("from") == Some("steady");
         Ok(Self {
             name: values.text_opt("name").unwrap_or(what).to_string(),
             schedule,
-            from: values.number("from"),
+            from: values.number_opt("from").unwrap_or(0.0),
+            waiting: steady.then(|| Steady::new(setting.sampling.per_cycle.unwrap_or(1))),
+            series,
             until: values.number_opt("until").unwrap_or(f64::INFINITY),
             observer,
         })
@@ -113,24 +127,47 @@ impl Watch {
 
     /// Takes a sample: a row of the series, if there is one.
     pub fn observe(&mut self, view: &View) -> Option<Vec<f64>> {
+        if let Some(steady) = &mut self.waiting {
+            if !steady.add(kinetic_energy(view)) {
+                return None;
+            }
+            self.waiting = None;
+        }
         let row = self.observer.observe(view)?;
+        if let Some(series) = &mut self.series {
+            series.add(view.tick.time, view.cycle, &row);
+        }
         let mut all = Vec::with_capacity(row.len() + 2);
         all.extend([view.tick.time, view.cycle]);
         all.extend(row);
         Some(all)
     }
 
-    /// Means with errors, profiles, fields, spectra.
+    /// Means with errors, profiles, fields, spectra: name of the table, and the table.
     #[must_use]
     pub fn results(&self) -> Vec<(String, Table)> {
-        self.observer.results()
+        let mut all = self.observer.results();
+        if let Some(series) = &self.series {
+            all.extend(series.results(&self.observer.columns()));
+        }
+        all.into_iter().map(|(tail, table)| (format!("{}-{tail}", self.name), table)).collect()
     }
 
     /// Plots for the report; `series` holds the rows returned so far.
     #[must_use]
     pub fn figures(&self, series: &Table) -> Vec<Figure> {
-        self.observer.figures(series)
+        let mut all = self.observer.figures(series);
+        if let Some(s) = &self.series {
+            all.extend(s.figures(&self.name, &self.observer.columns()));
+        }
+        all
     }
+}
+
+/// Kinetic energy of translation of all grains, J.
+fn kinetic_energy(view: &View) -> f64 {
+    let g = view.grains;
+    (0..g.len()).map(|k| 0.5 * g.mass[k] * g.velocity[k].length_squared()).sum()
 }
 
 /// What a schedule means in time and cycles.
@@ -141,5 +178,99 @@ fn sampling(schedule: Schedule, setting: &Setting) -> Sampling {
         interval: schedule.period as f64 * setting.dt,
         per_cycle: spc.and_then(|s| whole(s, schedule.period)),
         cycles: spc.and_then(|s| whole(schedule.period, s)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::{Stage, setting, values};
+    use brazilnut_base::values::Value;
+    use brazilnut_base::vec3;
+
+    fn table(extra: &[(&str, Value)]) -> Values {
+        let keys: Vec<Key> = COMMON.iter().chain(menu::keys("bed").unwrap()).copied().collect();
+        let mut v = values(&keys, &[]);
+        v.insert("what", Value::Text("bed".into()), None);
+        for (k, x) in extra {
+            v.insert(k, x.clone(), None);
+        }
+        v
+    }
+
+    fn watch(extra: &[(&str, Value)]) -> Result<Watch, Faults> {
+        let cell = Stage::new(vec3(1.0, 1.0, 1.0), "walls").cell;
+        Watch::from_values(&table(extra), &setting(&cell, &[("all".into(), 1)]))
+    }
+
+    #[test]
+    fn samples_fall_on_the_phase_and_in_the_span() {
+        let w = watch(&[
+            ("every", Value::Every(Every::Cycles(1))),
+            ("phase", Value::Number(std::f64::consts::FRAC_PI_2)),
+            ("from", Value::Number(0.2)),
+            ("until", Value::Number(0.5)),
+        ])
+        .unwrap();
+        let due: Vec<u64> = (0..1000).filter(|&i| w.is_due(&Tick::at(i, 1e-3))).collect();
+        assert_eq!(due, [225, 325, 425]);
+    }
+
+    #[test]
+    fn a_schedule_that_does_not_fit_is_refused_with_its_key() {
+        let faults = watch(&[("every", Value::Every(Every::PerCycle(7)))]).unwrap_err();
+        assert_eq!(faults[0].0, "every");
+        assert!(faults[0].1.contains("100 steps"), "{}", faults[0].1);
+        let faults = watch(&[("of", Value::Text("al".into()))]).unwrap_err();
+        assert!(faults[0].1.contains("did you mean `all`"), "{}", faults[0].1);
+    }
+
+    #[test]
+    fn a_series_brings_its_means_phases_and_spectrum() {
+        let mut stage = Stage::new(vec3(1.0, 1.0, 1.0), "walls");
+        stage.add(vec3(0.5, 0.5, 0.5), 0.1);
+        let mut w =
+            watch(&[("every", Value::Every(Every::PerCycle(10))), ("spectrum", Value::Integer(64))]).unwrap();
+        for k in 0..640 {
+            stage.time = 0.01 * f64::from(k);
+            stage.grains.position[0].z = 0.5 + 0.1 * (std::f64::consts::TAU * 10.0 * stage.time).sin();
+            assert!(w.is_due(&stage.view().tick));
+            let row = w.observe(&stage.view()).unwrap();
+            assert_eq!(row.len(), w.columns().len());
+        }
+        let results = w.results();
+        let table = |name: &str| &results.iter().find(|r| r.0 == name).unwrap().1;
+        let gap = table("bed-by-phase").column("gap").unwrap();
+        assert_eq!(gap.len(), 10);
+        // Phase 72° is the third of ten bins.
+        assert!((gap[2] - 0.4 - 0.1 * 72_f64.to_radians().sin()).abs() < 1e-12);
+        let power = table("bed-spectrum").column("gap").unwrap();
+        let f = table("bed-spectrum").column("frequency").unwrap();
+        let peak = (0..power.len()).max_by(|&a, &b| power[a].total_cmp(&power[b])).unwrap();
+        assert!((f[peak] - 10.0).abs() < 1.0);
+        let mean = table("bed-means").column("centre_of_mass_z").unwrap();
+        assert!((mean[0] - 0.5).abs() < 1e-12);
+        assert!(!w.figures(&Table::default()).is_empty());
+    }
+
+    #[test]
+    fn waits_until_the_bed_is_steady() {
+        let mut stage = Stage::new(vec3(1.0, 1.0, 1.0), "walls");
+        stage.add(vec3(0.5, 0.5, 0.5), 0.1);
+        let mut w =
+            watch(&[("every", Value::Every(Every::Cycles(1))), ("from", Value::Text("steady".into()))])
+                .unwrap();
+        let noise = crate::stats::known::white(600, 1e-4, 3);
+        let mut first = None;
+        for k in 0..600 {
+            stage.time = 0.1 * k as f64;
+            stage.grains.velocity[0].x = 1.0 + noise[k] + 3.0 * (-(k as f64) / 20.0).exp();
+            if w.observe(&stage.view()).is_some() && first.is_none() {
+                first = Some(k);
+            }
+        }
+        // The transient sinks into the noise of 0.01 after 20 ln(300) = 114 samples; as much must follow.
+        let first = first.unwrap();
+        assert!((120..500).contains(&first), "{first}");
     }
 }

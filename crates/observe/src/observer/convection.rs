@@ -164,7 +164,7 @@ impl Observe for Convection {
             n,
             n * self.cycles,
         ]);
-        vec![("convection".into(), strength), ("convection-field".into(), self.field_table())]
+        vec![("strength".into(), strength), ("field".into(), self.field_table())]
     }
 
     fn figures(&self, series: &Table) -> Vec<Figure> {

@@ -99,7 +99,7 @@ impl Observe for Surface {
         let mut t = Table::new(&[(AXES[self.columns.axis], "m"), ("height", "m"), ("height_error", "m")]);
         t.rows =
             heights.iter().enumerate().map(|(k, h)| vec![self.columns.centre(k), h.value, h.error]).collect();
-        vec![("surface".into(), t)]
+        vec![("mean".into(), t)]
     }
 
     fn figures(&self, series: &Table) -> Vec<Figure> {

@@ -1,0 +1,204 @@
+//! What is asked of every series: means, phase averages, spectra.
+
+use crate::accumulate::{Batched, Estimate};
+use crate::observer::Sampling;
+use crate::phase::PhaseAverage;
+use crate::stats::blocking::Blocking;
+use crate::stats::spectrum::Welch;
+use crate::stats::steady::mser;
+use brazilnut_base::figure::{Axis, Body, Curve, Figure};
+use brazilnut_base::{Column, Table};
+use serde::{Deserialize, Serialize};
+
+/// Statistics of the columns of a series, in memory of fixed size.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Series {
+    sampling: Sampling,
+    start: f64,
+    columns: Vec<Blocking>,
+    batches: Batched,
+    phases: Option<PhaseAverage>,
+    spectrum: Option<Welch>,
+}
+
+/// Batches of the steady-state test.
+const BATCHES: usize = 64;
+/// Batches behind the error of a phase average.
+const CYCLES: usize = 16;
+/// Curves in one figure.
+const CURVES: usize = 8;
+
+impl Series {
+    /// For `columns` columns; spectra of segments of `segment` samples if asked for.
+    #[must_use]
+    pub fn new(columns: usize, sampling: Sampling, segment: Option<usize>) -> Self {
+        let per_cycle = sampling.per_cycle.filter(|&n| n > 1);
+        Self {
+            sampling,
+            start: f64::NAN,
+            columns: vec![Blocking::default(); columns],
+            batches: Batched::new(columns, BATCHES, sampling.per_cycle.unwrap_or(1)),
+            phases: per_cycle.map(|n| PhaseAverage::new(n as usize, columns, CYCLES)),
+            spectrum: segment.map(|n| Welch::new(columns, n)),
+        }
+    }
+
+    /// Takes a row.
+    pub fn add(&mut self, time: f64, cycle: f64, row: &[f64]) {
+        if self.batches.rows() == 0 {
+            self.start = time;
+        }
+        self.columns.iter_mut().zip(row).for_each(|(b, &x)| b.add(x));
+        self.batches.add(row);
+        if let Some(p) = &mut self.phases {
+            p.add(cycle, row);
+        }
+        if let Some(s) = &mut self.spectrum {
+            s.add(row);
+        }
+    }
+
+    /// The tables, with the columns' names and units.
+    #[must_use]
+    pub fn results(&self, columns: &[Column]) -> Vec<(String, Table)> {
+        let mut all = vec![("means".to_string(), self.means(columns))];
+        if let Some(p) = &self.phases {
+            all.push(("by-phase".into(), by_phase(p, columns)));
+        }
+        if let Some(s) = self.spectrum.as_ref().filter(|s| s.segments() > 0) {
+            all.push(("spectrum".into(), self.spectrum(s, columns)));
+        }
+        all
+    }
+
+    fn means(&self, columns: &[Column]) -> Table {
+        let mut t = Table::default();
+        let mut row = vec![];
+        for (k, c) in columns.iter().enumerate() {
+            let Estimate { value, error } = self.columns[k].mean();
+            let tau = self.columns[k].correlation_time() * self.sampling.interval;
+            for (tail, unit, x) in [
+                ("", c.unit.as_str(), value),
+                ("_error", c.unit.as_str(), error),
+                ("_correlation_time", "s", tau),
+                ("_steady_from", "s", self.steady_from(k)),
+            ] {
+                t.columns.push(Column::new(format!("{}{tail}", c.name), unit));
+                row.push(x);
+            }
+        }
+        t.rows.push(row);
+        t
+    }
+
+    /// Time from which column `k` is steady by MSER over batches; NaN if the series is too short to tell.
+    fn steady_from(&self, k: usize) -> f64 {
+        let n = self.batches.length();
+        let x: Vec<f64> = (0..self.batches.full()).map(|b| self.batches.batch(b)[k] / n as f64).collect();
+        mser(&x).map_or(f64::NAN, |d| self.start + (d as u64 * n) as f64 * self.sampling.interval)
+    }
+
+    fn spectrum(&self, s: &Welch, columns: &[Column]) -> Table {
+        let mut t = Table::new(&[("frequency", "Hz")]);
+        t.columns.extend(columns.iter().map(|c| Column::new(&*c.name, per_hertz(&c.unit))));
+        t.rows = s.frequencies(self.sampling.interval).into_iter().map(|f| vec![f]).collect();
+        for k in 0..columns.len() {
+            for (row, p) in t.rows.iter_mut().zip(s.density(k, self.sampling.interval)) {
+                row.push(p);
+            }
+        }
+        t
+    }
+
+    /// Plots of the phase averages and spectra, columns of one unit together.
+    #[must_use]
+    pub fn figures(&self, name: &str, columns: &[Column]) -> Vec<Figure> {
+        let mut figures = vec![];
+        for unit in units(columns) {
+            let of_unit: Vec<usize> =
+                (0..columns.len()).filter(|&k| columns[k].unit == unit).take(CURVES).collect();
+            if let Some(p) = &self.phases {
+                figures.push(phase_figure(name, p, columns, &of_unit, &unit));
+            }
+            if let Some(s) = self.spectrum.as_ref().filter(|s| s.segments() > 0) {
+                figures.push(self.spectrum_figure(name, s, columns, &of_unit, &unit));
+            }
+        }
+        figures
+    }
+
+    fn spectrum_figure(&self, name: &str, s: &Welch, columns: &[Column], of: &[usize], unit: &str) -> Figure {
+        let f = s.frequencies(self.sampling.interval);
+        let curve = |&k: &usize| {
+            let p = s.density(k, self.sampling.interval);
+            // The first bin holds what is left of the mean and has no place on a logarithmic axis.
+            Curve::line(words(&columns[k].name), f.iter().zip(p).skip(1).map(|(f, p)| [*f, p]).collect())
+        };
+        Figure {
+            title: format!("Spectrum: {name}"),
+            caption: format!(
+                "One-sided power spectral density by Welch's method: {} segments of {} samples, half overlapping, Hann window.",
+                s.segments(),
+                2 * (f.len() - 1)
+            ),
+            body: Body::Curves {
+                x: Axis::log("frequency", "Hz"),
+                y: Axis::log("power spectral density", &per_hertz(unit)),
+                curves: of.iter().map(curve).collect(),
+            },
+        }
+    }
+}
+
+fn by_phase(p: &PhaseAverage, columns: &[Column]) -> Table {
+    let mut t = Table::new(&[("phase", "deg"), ("samples", "1")]);
+    for c in columns {
+        t.columns.push(c.clone());
+        t.columns.push(Column::new(format!("{}_error", c.name), &*c.unit));
+    }
+    for (k, bin) in p.bins().iter().enumerate().filter(|(_, b)| b.rows() > 0) {
+        let mut row = vec![p.degrees(k), bin.rows() as f64];
+        row.extend(bin.means().iter().flat_map(|m| [m.value, m.error]));
+        t.rows.push(row);
+    }
+    t
+}
+
+fn phase_figure(name: &str, p: &PhaseAverage, columns: &[Column], of: &[usize], unit: &str) -> Figure {
+    let means: Vec<_> = p.means().collect();
+    let curve = |&k: &usize| Curve {
+        error: means.iter().map(|(_, m)| m[k].error).collect(),
+        ..Curve::line(words(&columns[k].name), means.iter().map(|(d, m)| [*d, m[k].value]).collect())
+    };
+    let cycles = p.bins().iter().map(Batched::rows).max().unwrap_or(0);
+    Figure {
+        title: format!("By phase: {name}"),
+        caption: format!(
+            "Mean over {cycles} cycles at equal phase, with standard errors from batches of cycles. \
+             Phase 0 is the floor moving up at its fastest."
+        ),
+        body: Body::Curves {
+            x: Axis::linear("phase", "deg"),
+            y: Axis::linear("mean at equal phase", unit),
+            curves: of.iter().map(curve).collect(),
+        },
+    }
+}
+
+fn words(column: &str) -> String {
+    column.replace('_', " ")
+}
+
+fn per_hertz(unit: &str) -> String {
+    if unit == "1" { "1/Hz".into() } else { format!("({unit})^2/Hz") }
+}
+
+fn units(columns: &[Column]) -> Vec<String> {
+    let mut all: Vec<String> = vec![];
+    for c in columns {
+        if !all.contains(&c.unit) {
+            all.push(c.unit.clone());
+        }
+    }
+    all
+}
