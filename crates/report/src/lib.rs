@@ -5,6 +5,7 @@
 
 pub mod colour;
 pub mod html;
+pub mod picture;
 pub mod plot;
 pub mod png;
 pub mod sheet;

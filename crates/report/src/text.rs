@@ -19,10 +19,11 @@ pub fn escape(text: &str) -> String {
     out
 }
 
-/// Width of `text` in a Helvetica-like face of `size` pixels.
+/// Width of `text` at `size` pixels in whichever sans-serif face the reader has.
 #[must_use]
 pub fn width(text: &str, size: f64) -> f64 {
-    text.chars().map(advance).sum::<f64>() * size / 1000.0
+    // Common faces run up to an eighth wider than Helvetica: too much room is better than an overlap.
+    1.12 * text.chars().map(advance).sum::<f64>() * size / 1000.0
 }
 
 /// Advance of a character in thousandths of the size (Helvetica's published metrics).
@@ -169,7 +170,7 @@ pub fn significant(x: f64, digits: usize) -> String {
 pub fn readable_unit(text: &str, largest: f64) -> (String, f64) {
     const PREFIXED: [&str; 10] = ["m", "s", "m/s", "N", "J", "W", "Pa", "Hz", "Pa s", "N/m"];
     let takes_prefix = PREFIXED.contains(&text);
-    let plain = if takes_prefix { 0.1..1e3 } else { 0.01..1e4 };
+    let plain = if takes_prefix { 0.15..1e3 } else { 0.01..1e4 };
     if !largest.is_finite() || largest <= 0.0 || plain.contains(&largest) {
         return (unit(text), 1.0);
     }
@@ -224,6 +225,7 @@ mod tests {
     fn small_and_large_values_get_a_prefix() {
         assert_eq!(readable_unit("m", 0.0012), ("mm".into(), 1e-3));
         assert_eq!(readable_unit("m", 0.04), ("mm".into(), 1e-3));
+        assert_eq!(readable_unit("m", 0.1), ("mm".into(), 1e-3));
         assert_eq!(readable_unit("s", 2.0), ("s".into(), 1.0));
         assert_eq!(readable_unit("Pa", 2e5), ("kPa".into(), 1e3));
         assert_eq!(readable_unit("m^2/s^2", 2e-7), ("10⁻⁷ m²/s²".into(), 1e-7));
@@ -244,7 +246,7 @@ mod tests {
 
     #[test]
     fn lines_fit() {
-        let lines = wrap("a rather long title that needs more than one line", 14.0, 120.0);
-        assert!(lines.len() > 1 && lines.iter().all(|l| width(l, 14.0) <= 120.0), "{lines:?}");
+        let lines = wrap("a rather long title that needs more than one line", 14.0, 130.0);
+        assert!(lines.len() > 1 && lines.iter().all(|l| width(l, 14.0) <= 130.0), "{lines:?}");
     }
 }

@@ -52,16 +52,16 @@ impl Scale {
         }
         let (unit, factor) = text::readable_unit(&axis.unit, low.abs().max(high.abs()));
         let range = [low / factor, high / factor];
-        let ticks = linear_ticks(range, count);
-        Self {
-            range,
-            log: false,
-            factor,
-            label: text::labelled(&axis.label, &unit),
-            ticks,
-            minor: vec![],
-            place: [0.0, 1.0],
-        }
+        let (label, ticks) = (text::labelled(&axis.label, &unit), linear_ticks(range, count));
+        Self { range, log: false, factor, label, ticks, minor: vec![], place: [0.0, 1.0] }
+    }
+
+    /// The same linear axis printed in the unit that is `factor` of the data's.
+    pub fn in_unit_of(self, axis: &brazilnut_base::figure::Axis, factor: f64, count: usize) -> Self {
+        let (unit, factor) = text::readable_unit(&axis.unit, factor);
+        let range = self.range.map(|v| v * self.factor / factor);
+        let (label, ticks) = (text::labelled(&axis.label, &unit), linear_ticks(range, count));
+        Self { range, factor, label, ticks, ..self }
     }
 
     fn log(axis: &brazilnut_base::figure::Axis, low: f64, high: f64, count: usize) -> Self {

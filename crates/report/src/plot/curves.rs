@@ -62,7 +62,7 @@ pub(super) fn draw(title: &str, x: &Axis, y: &Axis, curves: &[Curve]) -> String 
 /// Writes the title; returns where the space below it starts, px.
 pub(crate) fn heading(paper: &mut Paper, title: &str) -> f64 {
     let mut y = 12.0;
-    for line in text::wrap(title, TITLE * 1.06, WIDTH - 40.0).iter().take(2) {
+    for line in text::wrap(title, TITLE, WIDTH - 40.0).iter().take(2) {
         y += TITLE + 3.0;
         paper.bold(20.0, y - 4.0, TITLE, line);
     }
@@ -220,13 +220,13 @@ fn curve(paper: &mut Paper, k: usize, c: &Curve, sx: &Scale, sy: &Scale) {
     ));
 }
 
-/// A long curve in fewer points that look the same: of all in one half pixel
+/// A long curve in fewer points that look the same: of all in one pixel
 /// column, the first, the lowest, the highest and the last.
 fn thin(places: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     if places.len() < 3000 {
         return places;
     }
-    let column = |p: &[f64; 2]| (2.0 * p[0]).floor();
+    let column = |p: &[f64; 2]| p[0].floor();
     let mut out = vec![];
     for group in places.chunk_by(|a, b| column(a) == column(b)) {
         let pick = |better: fn(f64, f64) -> bool| {

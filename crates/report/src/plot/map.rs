@@ -24,6 +24,12 @@ pub(super) fn draw(figure: &Figure) -> String {
     let [x0, x1, y0, y1] = extent(raster, arrows, lines);
     let mut sx = Scale::new(&linear(x), x0, x1, Fit::Tight, 6);
     let mut sy = Scale::new(&linear(y), y0, y1, Fit::Tight, 6);
+    if x.unit == y.unit {
+        // One plane, one unit: the finer of the two.
+        let factor = sx.factor.min(sy.factor);
+        sx = sx.in_unit_of(&linear(x), factor, 6);
+        sy = sy.in_unit_of(&linear(y), factor, 6);
+    }
 
     // The heading is laid out on a sheet of its own to know its height first.
     let key_room = if arrows.is_empty() { 0.0 } else { 16.0 };
