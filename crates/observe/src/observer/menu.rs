@@ -87,4 +87,6 @@ observers! {
     Convection = convection,
     Trajectory = trajectory,
     Surface = surface,
+    Profile = profile,
+    Field = field,
 }

@@ -5,8 +5,11 @@ pub mod menu;
 mod bed;
 mod convection;
 mod energy;
+mod field;
+mod profile;
 mod surface;
 mod trajectory;
+mod zone_stats;
 
 use crate::view::{Needs, View};
 use brazilnut_base::figure::Figure;

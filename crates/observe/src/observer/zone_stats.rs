@@ -1,0 +1,94 @@
+//! What profiles and fields share: sums over zones with their errors.
+
+use super::{Faults, Selection, Setting};
+use crate::accumulate::{Batched, Estimate};
+use crate::view::View;
+use crate::zones::Zones;
+use crate::zones::sums::{self, Frame, QUANTITIES, SUMS};
+use brazilnut_base::Table;
+use brazilnut_base::keys::{Key, Kind};
+use brazilnut_base::values::Values;
+use serde::{Deserialize, Serialize};
+
+/// The key that both have.
+pub const FRAME: Key = Key::default(
+    "frame",
+    Kind::Word(&["cell", "floor"]),
+    "\"cell\"",
+    "Frame of places and velocities: the cell's, or that of a floor that moves alone.",
+);
+
+/// More zones than this would take gigabytes of sums.
+const MOST: usize = 40_000;
+
+/// Sums over zones and samples.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ZoneStats {
+    pub of: Selection,
+    pub zones: Zones,
+    pub frame: Frame,
+    pub flat: bool,
+    pub sums: Batched,
+}
+
+impl ZoneStats {
+    /// Reads what both observers have in common.
+    pub fn new(values: &Values, setting: &Setting, zones: Zones) -> Result<Self, Faults> {
+        if zones.len() > MOST {
+            let message = format!("{} zones are too many (at most {MOST})", zones.len());
+            return Err(vec![("size".into(), message)]);
+        }
+        let frame = if values.text("frame") == "floor" { Frame::Floor } else { Frame::Cell };
+        Ok(Self {
+            of: Selection::read(values, setting)?,
+            frame,
+            flat: setting.cell.flat_axis().is_some(),
+            sums: Batched::new(SUMS * zones.len(), 16, setting.sampling.per_cycle.unwrap_or(1)),
+            zones,
+        })
+    }
+
+    /// Takes a sample and returns its sums.
+    pub fn sample(&mut self, view: &View) -> Vec<f64> {
+        let now = sums::at(view, &self.zones, self.of, self.frame);
+        self.sums.add(&now);
+        now
+    }
+
+    /// All quantities from sums over `samples` samples, zone by zone.
+    pub fn quantities(&self, sums: &[f64], samples: f64, out: &mut [f64]) {
+        for (k, (s, o)) in sums.chunks_exact(SUMS).zip(out.chunks_exact_mut(QUANTITIES.len())).enumerate() {
+            sums::derive(s, samples, self.zones.volume(k), self.flat, o);
+        }
+    }
+
+    /// Long-term means with errors, zone by zone.
+    pub fn means(&self) -> Vec<Vec<Estimate>> {
+        let all =
+            self.sums.estimates(self.zones.len() * QUANTITIES.len(), |s, n, out| self.quantities(s, n, out));
+        all.chunks(QUANTITIES.len()).map(<[Estimate]>::to_vec).collect()
+    }
+
+    /// The long-term means as a table: coordinates, then each quantity with its error.
+    pub fn table(&self, means: &[Vec<Estimate>]) -> Table {
+        let mut columns: Vec<(String, &str)> =
+            self.zones.coordinates().iter().map(|c| ((*c).to_string(), "m")).collect();
+        for (name, unit) in QUANTITIES {
+            columns.push(((*name).to_string(), unit));
+            columns.push((format!("{name}_error"), unit));
+        }
+        let columns: Vec<(&str, &str)> = columns.iter().map(|(n, u)| (n.as_str(), *u)).collect();
+        let mut t = Table::new(&columns);
+        for (k, zone) in means.iter().enumerate() {
+            let mut row = self.zones.centre(k);
+            row.extend(zone.iter().flat_map(|e| [e.value, e.error]));
+            t.rows.push(row);
+        }
+        t
+    }
+}
+
+/// Place of a quantity among [`QUANTITIES`].
+pub fn place(name: &str) -> usize {
+    QUANTITIES.iter().position(|q| q.0 == name).unwrap_or(0)
+}
