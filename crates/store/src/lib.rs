@@ -7,14 +7,20 @@
 
 pub mod append;
 pub mod atomic;
+pub mod checkpoint;
+pub mod dump;
 pub mod error;
 pub mod frame;
+pub mod lock;
 pub mod series;
 pub mod table;
 pub mod vtk;
+pub mod xyz;
 
 pub use append::Appender;
+pub use checkpoint::{Header, Limits, Loaded, Refused};
 pub use error::{Cause, StoreError};
 pub use frame::{Array, Data, GrainFrame};
+pub use lock::Lock;
 pub use series::Series;
 pub use table::TableFile;

@@ -1,7 +1,7 @@
 //! Tables as CSV: a row of names, one `#` line of units, then numbers that
 //! read back to the same bits.
 //!
-//! `pandas.read_csv(path, comment="#", float_precision="round_trip")` reads them.
+//! `pandas.read_csv(path, comment="#")` reads them.
 
 use crate::error::At;
 use crate::{Appender, StoreError};
