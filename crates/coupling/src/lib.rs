@@ -3,6 +3,7 @@
 pub mod body;
 pub mod one_way;
 pub mod still;
+pub mod transfer;
 
 pub use body::Body;
 pub use one_way::SimpleDrag;
