@@ -5,6 +5,7 @@
 //! single-threaded; a sweep runs many of them side by side.
 
 pub mod bed_equation;
+pub mod brazil_nut;
 pub mod coupled_columns;
 pub mod kinetic_theory;
 pub mod ode;
