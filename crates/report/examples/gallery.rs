@@ -3,7 +3,7 @@
 
 use brazilnut_base::figure::{Axis, Body, Curve, Figure, Raster, Style};
 use brazilnut_base::random::stream;
-use brazilnut_base::{Vec3, vec3};
+use brazilnut_base::{Cell, Side, Vec3, vec3};
 use brazilnut_report::html::{Content, Image, Report};
 use brazilnut_report::picture::{self, Arrow, Camera, Format, Scene, Sphere};
 use brazilnut_report::{Sheet, svg};
@@ -24,10 +24,10 @@ fn main() -> io::Result<()> {
     {
         let scene = bed(dome);
         let start = std::time::Instant::now();
-        let png = picture::render(&scene, &camera, Format::default());
+        let png = picture::render(&scene, &camera, Format::fitting(&scene, &camera, 900));
         println!("{name}: {} ms, {} kB", start.elapsed().as_millis(), png.len() / 1000);
         fs::write(format!("{out}/bed-{name}.png"), &png)?;
-        images.push(Image { png, caption: format!("bed: {name}") });
+        images.push(Image::new(png, format!("bed: {name}")));
     }
     let mut sheet = Sheet::new("");
     sheet.group("grains").row("number", "2500", "bronze").row("mass", "37.1 g", "");
@@ -99,7 +99,8 @@ fn bed(dome: f64) -> Scene {
     } else {
         vec![]
     };
-    Scene { spheres, arrows, cell: Some((Vec3::ZERO, top)), fluid: Some((Vec3::ZERO, top)), view: None }
+    let cell = Cell { size: top.with_z(0.03), sides: [Side::Walls; 3] };
+    Scene { arrows, ..Scene::of_bed(&cell, spheres, top.z, true) }
 }
 
 fn figures() -> Vec<Figure> {

@@ -1,5 +1,6 @@
 //! The report: one HTML file that needs nothing else.
 
+use crate::plot::{ColourScale, scale_bar};
 use crate::sheet::{self, Sheet};
 use crate::text::escape;
 use base64::Engine as _;
@@ -36,12 +37,22 @@ pub enum Content {
 }
 
 /// A picture with its caption.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     /// The PNG file.
     pub png: Vec<u8>,
     /// What it shows.
     pub caption: String,
+    /// What its shades mean, if they show values.
+    pub scale: Option<ColourScale>,
+}
+
+impl Image {
+    /// A picture whose colours need no scale.
+    #[must_use]
+    pub fn new(png: Vec<u8>, caption: impl Into<String>) -> Self {
+        Self { png, caption: caption.into(), scale: None }
+    }
 }
 
 impl Content {
@@ -143,9 +154,10 @@ fn push(out: &mut String, content: &Content) {
             for image in images {
                 let data = base64::engine::general_purpose::STANDARD.encode(&image.png);
                 let (alt, caption) = (escape(&image.caption), caption_of(&image.caption));
+                let scale = image.scale.as_ref().map_or(String::new(), scale_bar);
                 let _ = writeln!(
                     out,
-                    "<figure>\n<img alt=\"{alt}\" src=\"data:image/png;base64,{data}\">{caption}</figure>"
+                    "<figure>\n<img alt=\"{alt}\" src=\"data:image/png;base64,{data}\">{scale}{caption}</figure>"
                 );
             }
             writeln!(out, "</div>")
@@ -200,10 +212,7 @@ mod tests {
             .subtitle("dry & shaken")
             .section("Ledger", vec![table])
             .section("Nothing", vec![])
-            .section(
-                "Pictures",
-                vec![Content::Images(vec![Image { png: vec![1, 2, 3], caption: "\"t\"".into() }])],
-            )
+            .section("Pictures", vec![Content::Images(vec![Image::new(vec![1, 2, 3], "\"t\"")])])
     }
 
     #[test]

@@ -11,6 +11,6 @@ pub mod png;
 pub mod sheet;
 pub mod text;
 
-pub use html::{Content, Report};
-pub use plot::svg;
+pub use html::{Content, Image, Report};
+pub use plot::{ColourScale, svg};
 pub use sheet::Sheet;

@@ -72,6 +72,16 @@ impl Series {
         self.folder.join(format!("{}.pvd", self.name))
     }
 
+    /// Writes `NAME-in-paraview.py` beside the list: it shows a series of grains as
+    /// spheres of the right size, which a list alone cannot ask for.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write_paraview_script(&self) -> Result<(), StoreError> {
+        let script = include_str!("paraview.py").replace("NAME", &self.name);
+        atomic::write(&self.folder.join(format!("{}-in-paraview.py", self.name)), script.as_bytes())
+    }
+
     /// Step and time (s) of every frame.
     #[must_use]
     pub fn frames(&self) -> &[(u64, f64)] {
@@ -142,6 +152,14 @@ mod tests {
         s.add(200, 0.2).unwrap();
         s.add(300, 300.0 * 1e-3).unwrap();
         assert_eq!(fs::read(s.list()).unwrap(), unbroken);
+    }
+
+    #[test]
+    fn the_script_names_the_list() {
+        let folder = tempfile::tempdir().unwrap();
+        Series::create(folder.path(), "grains", "vtp").unwrap().write_paraview_script().unwrap();
+        let script = fs::read_to_string(folder.path().join("grains-in-paraview.py")).unwrap();
+        assert!(script.contains("\"grains.pvd\"") && !script.contains("NAME"));
     }
 
     #[test]

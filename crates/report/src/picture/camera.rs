@@ -1,6 +1,6 @@
 //! Where the bed is seen from, and where a point of space falls on the picture.
 
-use brazilnut_base::{Vec3, vec3};
+use brazilnut_base::{Cell, Vec3, vec3};
 
 /// A view of the bed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +18,16 @@ impl Camera {
     pub const FRONT: Self = Self { azimuth: 0.0, elevation: 0.0, perspective: 0.0 };
     /// A gentle view from above one corner.
     pub const CORNER: Self = Self { azimuth: 24.0, elevation: 16.0, perspective: 22.0 };
+
+    /// The view that suits a cell: straight at the plane of a two-dimensional case, else from a corner.
+    #[must_use]
+    pub fn for_cell(cell: &Cell) -> Self {
+        match cell.flat_axis() {
+            Some(0) => Self { azimuth: 90.0, ..Self::FRONT },
+            Some(_) => Self::FRONT,
+            None => Self::CORNER,
+        }
+    }
 }
 
 /// A camera aimed at a bed, with the size of its picture in samples.
@@ -48,17 +58,7 @@ impl Camera {
         let lens =
             Lens { target: 0.5 * (low + high), right, up, forward, nearness, zoom: 1.0, centre: [0.0; 2] };
 
-        let corners = (0..8).map(|k| {
-            lens.project(vec3(
-                if k & 1 == 0 { low.x } else { high.x },
-                if k & 2 == 0 { low.y } else { high.y },
-                if k & 4 == 0 { low.z } else { high.z },
-            ))
-        });
-        let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for [x, y, _] in corners {
-            (min, max) = ([min[0].min(x), min[1].min(y)], [max[0].max(x), max[1].max(y)]);
-        }
+        let (min, max) = lens.frame((low, high));
         let (w, h) = (width as f64, height as f64);
         let margin = 0.045 * w.min(h);
         let zoom = ((w - 2.0 * margin) / (max[0] - min[0]).max(1e-30))
@@ -68,7 +68,29 @@ impl Camera {
     }
 }
 
+impl Camera {
+    /// Height over width of a box as seen by this camera.
+    pub(crate) fn aspect(&self, bounds: (Vec3, Vec3)) -> f64 {
+        let (min, max) = self.aim(bounds, 1000, 1000).frame(bounds);
+        (max[1] - min[1]) / (max[0] - min[0]).max(1e-30)
+    }
+}
+
 impl Lens {
+    /// Ends of a box on the picture, in samples.
+    fn frame(&self, (low, high): (Vec3, Vec3)) -> ([f64; 2], [f64; 2]) {
+        let corners = (0..8).map(|k| {
+            self.project(vec3(
+                if k & 1 == 0 { low.x } else { high.x },
+                if k & 2 == 0 { low.y } else { high.y },
+                if k & 4 == 0 { low.z } else { high.z },
+            ))
+        });
+        corners.fold(([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]), |(min, max), [x, y, _]| {
+            ([min[0].min(x), min[1].min(y)], [max[0].max(x), max[1].max(y)])
+        })
+    }
+
     /// A point in view coordinates: right, up, away.
     pub fn view(&self, p: Vec3) -> Vec3 {
         self.turn(p - self.target)

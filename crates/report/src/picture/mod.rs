@@ -17,7 +17,7 @@ pub use camera::Camera;
 pub use palette::{AMBER, STEEL, TEAL, by_layer, by_value, species};
 
 use crate::colour::{self, Rgb};
-use brazilnut_base::Vec3;
+use brazilnut_base::{Cell, Vec3};
 use rayon::prelude::*;
 
 /// A grain as the picture sees it.
@@ -51,6 +51,8 @@ pub struct Scene {
     pub arrows: Vec<Arrow>,
     /// Opposite corners of the cell whose edges are drawn, m; its bottom is the floor.
     pub cell: Option<(Vec3, Vec3)>,
+    /// The cell goes on above what is shown: no edges are drawn round its top.
+    pub open_top: bool,
     /// Opposite corners of the space filled with liquid, m: it is tinted.
     pub fluid: Option<(Vec3, Vec3)>,
     /// Opposite corners of what must be in view, m; all of the above if absent.
@@ -75,7 +77,36 @@ impl Default for Format {
     }
 }
 
+impl Format {
+    /// As high as the scene needs at this width, within reason.
+    #[must_use]
+    pub fn fitting(scene: &Scene, camera: &Camera, width: usize) -> Self {
+        // The margins are 4.5 % of the shorter side at each end.
+        let aspect = camera.aspect(scene.bounds());
+        let height = width as f64 * (0.91 * aspect + 0.09 * aspect.min(1.0)).clamp(0.4, 1.4);
+        Self { width, height: height.round() as usize, ..Self::default() }
+    }
+}
+
 impl Scene {
+    /// A bed in its cell, shown up to the height `top` (m) or the lid; `wet` fills the cell with liquid.
+    /// Pictures of one bed at several times should share `top`.
+    #[must_use]
+    pub fn of_bed(cell: &Cell, spheres: Vec<Sphere>, top: f64, wet: bool) -> Self {
+        let (mut low, mut high) = (Vec3::ZERO, cell.size.with_z(top.min(cell.size.z)));
+        if let Some(axis) = cell.flat_axis() {
+            // A plane case has grains on one plane: its cell is as deep as they are.
+            let ends = spheres.iter().map(|s| (s.centre[axis] - s.radius, s.centre[axis] + s.radius));
+            let (a, b) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), e| (a.min(e.0), b.max(e.1)));
+            if a < b {
+                (low[axis], high[axis]) = (a, b);
+            }
+        }
+        let bounds = Some((low, high));
+        let fluid = bounds.filter(|_| wet);
+        Self { spheres, arrows: vec![], cell: bounds, open_top: top < cell.size.z, fluid, view: bounds }
+    }
+
     /// What must be in view.
     fn bounds(&self) -> (Vec3, Vec3) {
         if let Some(view) = self.view {

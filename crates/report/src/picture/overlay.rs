@@ -12,7 +12,8 @@ const INK: Rgb = [0.16, 0.19, 0.23];
 pub(crate) fn draw(scene: &Scene, lens: &Lens, band: &Band, light: &mut [Rgb]) {
     let scale = (band.width as f64 / 1800.0).max(0.4);
     if let Some((low, high)) = scene.cell {
-        for (a, b) in edges(low, high) {
+        let lid = |a: Vec3, b: Vec3| scene.open_top && a.z == high.z && b.z == high.z;
+        for (a, b) in edges(low, high).filter(|(a, b)| !lid(*a, *b)) {
             let line =
                 Line { a: lens.project(a), b: lens.project(b), half: 1.15 * scale, front: 0.85, behind: 0.0 };
             line.draw(band, light, INK.map(to_linear));

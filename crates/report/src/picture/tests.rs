@@ -1,7 +1,7 @@
 //! What a picture must show, whatever it looks like.
 
 use super::*;
-use brazilnut_base::vec3;
+use brazilnut_base::{Side, vec3};
 
 /// Red, green and blue of every pixel.
 fn pixels(png: &[u8]) -> (usize, Vec<[u8; 3]>) {
@@ -77,4 +77,13 @@ fn a_neighbour_darkens_where_it_touches() {
         u32::from(p[100 * w + 200 + 75][1])
     };
     assert!(bright(&two) + 8 < bright(&one), "{} {}", bright(&two), bright(&one));
+}
+
+#[test]
+fn a_plane_case_is_seen_from_the_front() {
+    let cell = Cell { size: vec3(10.0, 1.0, 20.0), sides: [Side::Walls, Side::Flat, Side::Walls] };
+    let scene = Scene::of_bed(&cell, vec![ball(5.0, 0.0, 1.0, AMBER)], 4.0, false);
+    assert_eq!(scene.view, Some((vec3(0.0, -1.0, 0.0), vec3(10.0, 1.0, 4.0))));
+    assert!(scene.open_top && scene.fluid.is_none());
+    assert_eq!(Camera::for_cell(&cell), Camera::FRONT);
 }

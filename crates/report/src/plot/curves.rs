@@ -126,14 +126,18 @@ fn extents(x: &Axis, y: &Axis, curves: &[Curve]) -> (Range<f64>, Range<f64>) {
     (xs, ys)
 }
 
-/// Upper left corner of the legend in a corner of the panel that no curve touches.
+/// Upper left corner of the legend in a corner, or at the middle of a side,
+/// that no curve touches.
 fn free_corner(curves: &[Curve], sx: &Scale, sy: &Scale, p: Panel) -> Option<[f64; 2]> {
     let [w, h] = legend::column_size(curves);
     if curves.is_empty() || w > 0.6 * (p.right - p.left) || h > 0.5 * (p.bottom - p.top) {
         return None;
     }
     let (left, right, top, bottom) = (p.left + 14.0, p.right - 12.0 - w, p.top + 8.0, p.bottom - 10.0 - h);
-    [[right, top], [left, top], [left, bottom], [right, bottom]].into_iter().find(|[x, y]| {
+    let middle = 0.5 * (top + bottom);
+    let places =
+        [[right, top], [left, top], [left, bottom], [right, bottom], [right, middle], [left, middle]];
+    places.into_iter().find(|[x, y]| {
         let inside =
             |[u, v]: [f64; 2]| (x - 10.0..x + w + 10.0).contains(&u) && (y - 8.0..y + h + 8.0).contains(&v);
         !curves.iter().any(|c| trace(c, sx, sy).any(inside))

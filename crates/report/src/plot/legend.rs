@@ -56,6 +56,7 @@ pub(crate) fn rows(curves: &[Curve], limit: f64) -> (Vec<[f64; 2]>, f64) {
 /// One entry: a sample of the curve, then its label.
 pub(crate) fn entry(paper: &mut Paper, k: usize, curve: &Curve, at: [f64; 2]) {
     let (x, y, c) = (at[0], at[1] + 0.5 * ROW, colour(k));
+    paper.put(format_args!("<g class=\"data\">"));
     match curve.style {
         Style::Points => marker(paper, k, [x + 0.5 * SAMPLE, y]),
         style => {
@@ -66,6 +67,7 @@ pub(crate) fn entry(paper: &mut Paper, k: usize, curve: &Curve, at: [f64; 2]) {
             ));
         }
     }
+    paper.put(format_args!("</g>"));
     paper.text(x + SAMPLE + GAP, y + 4.2, SMALL, Hold::Start, &curve.label);
 }
 

@@ -1,9 +1,9 @@
 //! Values in a plane, with arrows and outlines on them.
 
-use super::WIDTH;
 use super::axis::{Fit, Scale, linear_ticks, nice_step};
 use super::curves::{Panel, frame, heading};
 use super::paper::{Hold, LABEL, Paper, SMALL, path};
+use super::{ColourScale, WIDTH};
 use crate::colour::{self, Rgb};
 use crate::{png, text};
 use base64::Engine as _;
@@ -160,10 +160,9 @@ fn colour_bar(paper: &mut Paper, r: &Raster, tint: &Tint, p: Panel) {
     for k in 0..steps {
         let t = (f64::from(k) + 0.5) / f64::from(steps);
         let [red, green, blue] = colour::to_bytes((tint.scale)(t));
-        let h = (p.bottom - p.top) / f64::from(steps);
-        let y = p.bottom - f64::from(k + 1) * h;
-        // Half a pixel of overlap hides the seams between neighbours.
-        let h = if k == 0 { h } else { h + 0.5 };
+        // Each reaches to the top, under those that follow: neighbours leave no seam.
+        let h = (p.bottom - p.top) * (1.0 - f64::from(k) / f64::from(steps));
+        let y = p.top;
         paper.put(format_args!(
             "<rect x=\"{x:.1}\" y=\"{y:.2}\" width=\"{w}\" height=\"{h:.2}\" fill=\"#{red:02x}{green:02x}{blue:02x}\"/>"
         ));
@@ -178,6 +177,33 @@ fn colour_bar(paper: &mut Paper, r: &Raster, tint: &Tint, p: Panel) {
     }
     let middle = 0.5 * (p.top + p.bottom);
     paper.upward(x + w + 8.0 + widest + 16.0, middle, LABEL, &text::labelled(&r.label, &unit));
+}
+
+/// The sequential scale lying down, as wide as half a plot.
+pub(super) fn scale_bar(scale: &ColourScale) -> String {
+    let (width, height, bar) = (0.5 * WIDTH, 56.0, 11.0);
+    let axis = Axis::linear(&scale.label, &scale.unit);
+    let mut s = Scale::new(&axis, scale.low, scale.high, Fit::Tight, 5);
+    s.place = [18.0, width - 18.0];
+    let mut paper = Paper::new(width, height, &scale.label);
+    let steps = 96;
+    for k in 0..steps {
+        let [red, green, blue] =
+            colour::to_bytes(colour::sequential((f64::from(k) + 0.5) / f64::from(steps)));
+        // Each reaches to the right end, under those that follow: neighbours leave no seam.
+        let w = (s.place[1] - s.place[0]) * (1.0 - f64::from(k) / f64::from(steps));
+        let x = s.place[1] - w;
+        paper.put(format_args!(
+            "<rect x=\"{x:.2}\" y=\"4\" width=\"{w:.2}\" height=\"{bar}\" fill=\"#{red:02x}{green:02x}{blue:02x}\"/>"
+        ));
+    }
+    let bottom = 4.0 + bar;
+    paper.strokes("ink", 1.0, s.ticks.iter().map(|t| [s.printed(t.0), bottom, s.printed(t.0), bottom + 4.0]));
+    for (v, label) in &s.ticks {
+        paper.text(s.printed(*v), bottom + 17.0, SMALL, Hold::Middle, label);
+    }
+    paper.text(0.5 * width, bottom + 34.0, SMALL, Hold::Middle, &s.label);
+    paper.finish()
 }
 
 fn outlines(paper: &mut Paper, lines: &[Vec<[f64; 2]>], sx: &Scale, sy: &Scale, on_raster: bool) {

@@ -26,5 +26,24 @@ pub fn svg(figure: &Figure) -> String {
     }
 }
 
+/// What the shades of a picture mean.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ColourScale {
+    /// What is shown.
+    pub label: String,
+    /// Its unit.
+    pub unit: String,
+    /// Value of the darkest shade.
+    pub low: f64,
+    /// Value of the lightest shade.
+    pub high: f64,
+}
+
+/// The sequential colour scale as a bar to stand under a picture.
+#[must_use]
+pub fn scale_bar(scale: &ColourScale) -> String {
+    map::scale_bar(scale)
+}
+
 #[cfg(test)]
 mod tests;
