@@ -6,7 +6,7 @@ fn shaken(gamma: f64, f: f64) -> Motion {
     Motion::vertical(gamma * 9.81 / (TAU * f).powi(2), f)
 }
 
-/// Bronze in water, f 10 Hz, Γ 2 (Clément 4.5).
+/// Bronze in water, f 10 Hz, Γ 2 (Clément 4.4).
 fn bronze() -> PlugSpec {
     PlugSpec {
         shake: shaken(2.0, 10.0),
@@ -44,7 +44,7 @@ fn peaks_of_bronze_in_water() {
     near(plug.takeoff_phase().unwrap(), 30.0, 1e-7);
     near(plug.landing_phase().unwrap(), 235.9, 0.06);
     near(plug.peaks.gap.value, 0.658e-3, 0.6e-6);
-    // Published (Clément 4.5): 912 and -353 Pa; 2 % covers a porosity printed to two digits.
+    // Published (Clément 4.4): 912 and -353 Pa; 2 % covers a porosity printed to two digits.
     near(plug.peaks.viscous_over.value, 912.0, 0.02 * 912.0);
     near(plug.peaks.viscous_under.value, -353.0, 0.02 * 353.0);
     assert_eq!((plug.multiplicity, plug.transient), (Some(1), 0));
