@@ -6,7 +6,9 @@
 
 pub mod accumulate;
 pub mod height;
+mod nodes;
 pub mod observer;
+mod pairs;
 pub mod phase;
 pub mod series;
 pub mod stats;

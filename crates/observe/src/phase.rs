@@ -1,6 +1,6 @@
 //! Averages over cycles at equal phase.
 
-use crate::accumulate::{Batched, Estimate};
+use crate::accumulate::Batched;
 use serde::{Deserialize, Serialize};
 
 /// Means of rows in bins of the phase, with standard errors from batches of cycles.
@@ -45,13 +45,6 @@ impl PhaseAverage {
     pub fn degrees(&self, k: usize) -> f64 {
         360.0 * k as f64 / self.bins.len() as f64
     }
-
-    /// Bins that hold rows, with their phases in degrees and the means of their columns.
-    pub fn means(&self) -> impl Iterator<Item = (f64, Vec<Estimate>)> + '_ {
-        (0..self.bins.len())
-            .filter(|&k| self.bins[k].rows() > 0)
-            .map(|k| (self.degrees(k), self.bins[k].means()))
-    }
 }
 
 #[cfg(test)]
@@ -67,7 +60,8 @@ mod tests {
             let cycle = k as f64 / 12.0;
             p.add(cycle, &[(std::f64::consts::TAU * cycle).cos() + e]);
         }
-        for (degrees, m) in p.means() {
+        for (k, bin) in p.bins().iter().enumerate() {
+            let (degrees, m) = (p.degrees(k), bin.means());
             // Standard error 0.5/sqrt(400) = 0.025, itself known from 12 to 16 batches to 20 %.
             assert!((m[0].error / 0.025 - 1.0).abs() < 0.6, "{:?}", m[0]);
             assert!((m[0].value - degrees.to_radians().cos()).abs() < 4.0 * 0.025);

@@ -37,8 +37,8 @@ impl Series {
             sampling,
             start: f64::NAN,
             columns: vec![Blocking::default(); columns],
-            batches: Batched::new(columns, BATCHES, sampling.per_cycle.unwrap_or(1)),
-            phases: per_cycle.map(|n| PhaseAverage::new(n as usize, columns, CYCLES)),
+            batches: Batched::new(2 * columns, BATCHES, sampling.per_cycle.unwrap_or(1)),
+            phases: per_cycle.map(|n| PhaseAverage::new(n as usize, 2 * columns, CYCLES)),
             spectrum: segment.map(|n| Welch::new(columns, n)),
         }
     }
@@ -49,9 +49,9 @@ impl Series {
             self.start = time;
         }
         self.columns.iter_mut().zip(row).for_each(|(b, &x)| b.add(x));
-        self.batches.add(row);
+        count(self.batches.open(), row);
         if let Some(p) = &mut self.phases {
-            p.add(cycle, row);
+            count(p.open(cycle), row);
         }
         if let Some(s) = &mut self.spectrum {
             s.add(row);
@@ -94,7 +94,12 @@ impl Series {
     /// Time from which column `k` is steady by MSER over batches; NaN if the series is too short to tell.
     fn steady_from(&self, k: usize) -> f64 {
         let n = self.batches.length();
-        let x: Vec<f64> = (0..self.batches.full()).map(|b| self.batches.batch(b)[k] / n as f64).collect();
+        let columns = self.columns.len();
+        let mean = |b: usize| self.batches.batch(b)[k] / self.batches.batch(b)[columns + k];
+        let x: Vec<f64> = (0..self.batches.full()).map(mean).collect();
+        if x.iter().any(|x| !x.is_finite()) {
+            return f64::NAN;
+        }
         mser(&x).map_or(f64::NAN, |d| self.start + (d as u64 * n) as f64 * self.sampling.interval)
     }
 
@@ -150,6 +155,20 @@ impl Series {
     }
 }
 
+/// Adds the values of a row, and that they were there: what is not a number is left out.
+fn count(sums: &mut [f64], row: &[f64]) {
+    let (values, present) = sums.split_at_mut(row.len());
+    for (k, &x) in row.iter().enumerate().filter(|(_, x)| x.is_finite()) {
+        values[k] += x;
+        present[k] += 1.0;
+    }
+}
+
+/// Means of what was counted.
+fn counted(sums: &Batched, columns: usize) -> Vec<Estimate> {
+    sums.estimates(columns, |s, _, out| (0..columns).for_each(|k| out[k] = s[k] / s[columns + k]))
+}
+
 fn by_phase(p: &PhaseAverage, columns: &[Column]) -> Table {
     let mut t = Table::new(&[("phase", "deg"), ("samples", "1")]);
     for c in columns {
@@ -158,14 +177,15 @@ fn by_phase(p: &PhaseAverage, columns: &[Column]) -> Table {
     }
     for (k, bin) in p.bins().iter().enumerate().filter(|(_, b)| b.rows() > 0) {
         let mut row = vec![p.degrees(k), bin.rows() as f64];
-        row.extend(bin.means().iter().flat_map(|m| [m.value, m.error]));
+        row.extend(counted(bin, columns.len()).iter().flat_map(|m| [m.value, m.error]));
         t.rows.push(row);
     }
     t
 }
 
 fn phase_figure(name: &str, p: &PhaseAverage, columns: &[Column], of: &[usize], unit: &str) -> Figure {
-    let means: Vec<_> = p.means().collect();
+    let held = p.bins().iter().enumerate().filter(|(_, b)| b.rows() > 0);
+    let means: Vec<_> = held.map(|(k, b)| (p.degrees(k), counted(b, columns.len()))).collect();
     let curve = |&k: &usize| Curve {
         error: means.iter().map(|(_, m)| m[k].error).collect(),
         ..Curve::line(words(&columns[k].name), means.iter().map(|(d, m)| [*d, m[k].value]).collect())

@@ -2,7 +2,7 @@
 
 use crate::observer::menu::{MENU, Observer, keys};
 use crate::observer::{Sampling, Setting};
-use crate::synthetic::{Stage, setting, values};
+use crate::synthetic::{Stage, Uniform, setting, values};
 use crate::view::{ContactAt, Partner, WallAt};
 use crate::watch::COMMON;
 use brazilnut_base::values::Value;
@@ -14,6 +14,14 @@ fn stage() -> Stage {
     let mut s = Stage::new(vec3(0.2, 0.1, 0.2), "periodic");
     s.scatter(60, 0.01, 9);
     s.grains.species[59] = 1;
+    s.flow = Some(Uniform {
+        cells: [10, 5, 10],
+        size: s.cell.size,
+        velocity: vec3(0.1, 0.0, 0.2),
+        slope: 3.0,
+        porosity: 0.5,
+        resolved: false,
+    });
     s.walls.push(WallAt { name: "floor", force: vec3(0.0, 0.0, -1.0), displacement: Vec3::ZERO });
     s.contacts.push(ContactAt {
         i: 0,
@@ -47,7 +55,17 @@ fn advance(s: &mut Stage, sample: u64, interval: f64) {
 }
 
 fn build(what: &str, setting: &Setting) -> Observer {
-    let mut v = values(keys(what).unwrap(), &[]);
+    // Short windows, so that they close within the suite's samples.
+    let numbers: &[(&str, f64)] = match what {
+        "diffusion" => &[("lags", 8.0)],
+        "layers" => &[("segment", 16.0)],
+        _ => &[],
+    };
+    let mut v = values(keys(what).unwrap(), numbers);
+    if what == "flow" {
+        v.insert("low", Value::Vector(Vec3::ZERO), None);
+        v.insert("high", Value::Vector(vec3(0.1, 0.1, 0.1)), None);
+    }
     if needs_of(what) {
         v.insert("of", Value::Text("other".into()), None);
     }

@@ -1,7 +1,7 @@
 //! Made-up grains and settings whose measures are known, for tests.
 
 use crate::observer::{Sampling, Setting};
-use crate::view::{ContactAt, View, WallAt};
+use crate::view::{ContactAt, FlowView, FluidAt, View, WallAt};
 use brazilnut_base::keys::{Absent, Key};
 use brazilnut_base::motion::Moved;
 use brazilnut_base::values::{Value, Values};
@@ -19,6 +19,46 @@ pub struct Stage {
     pub frequency: f64,
     pub floor: Moved,
     pub names: Vec<String>,
+    pub flow: Option<Uniform>,
+}
+
+/// A flow of one velocity and a pressure that rises with x, on a regular grid.
+pub struct Uniform {
+    pub cells: [usize; 3],
+    pub size: Vec3,
+    pub velocity: Vec3,
+    pub slope: f64,
+    pub porosity: f64,
+    pub resolved: bool,
+}
+
+impl FlowView for Uniform {
+    fn velocity(&self, _: Vec3) -> Vec3 {
+        self.velocity
+    }
+
+    fn pressure(&self, at: Vec3) -> f64 {
+        // A part that falls with height too: a base that is not the lid.
+        self.slope * at.x - 100.0 * at.z
+    }
+
+    fn porosity(&self, _: Vec3) -> f64 {
+        self.porosity
+    }
+
+    fn is_resolved(&self) -> bool {
+        self.resolved
+    }
+
+    fn shape(&self) -> [usize; 3] {
+        self.cells
+    }
+
+    fn centre(&self, c: [usize; 3]) -> Vec3 {
+        let n = self.cells.map(|n| n as f64);
+        let at = c.map(|c| c as f64 + 0.5);
+        self.size * vec3(at[0] / n[0], at[1] / n[1], at[2] / n[2])
+    }
 }
 
 impl Stage {
@@ -34,6 +74,7 @@ impl Stage {
             frequency: 10.0,
             floor: Moved::default(),
             names: vec!["all".into(), "other".into()],
+            flow: None,
         }
     }
 
@@ -64,7 +105,12 @@ impl Stage {
             walls: &self.walls,
             ledger: &[],
             collisions: None,
-            fluid: None,
+            fluid: self.flow.as_ref().map(|f| FluidAt {
+                density: 1000.0,
+                viscosity: 1e-3,
+                flow: Some(f),
+                drag: &[],
+            }),
             frame: Moved::default(),
             floor: self.floor,
             gravity: vec3(0.0, 0.0, -9.81),
@@ -104,6 +150,10 @@ pub fn values(keys: &[Key], numbers: &[(&str, f64)]) -> Values {
                 Value::Number(x)
             } else if text == "true" || text == "false" {
                 Value::Flag(text == "true")
+            } else if let Some(list) = text.strip_prefix('[') {
+                let items =
+                    list.trim_end_matches(']').split(',').map(|x| Value::Number(x.trim().parse().unwrap()));
+                Value::List(items.collect())
             } else {
                 Value::Text(text.trim_matches('"').to_string())
             };

@@ -3,6 +3,7 @@
 use brazilnut_base::motion::Moved;
 use brazilnut_base::{Cell, Tick, Vec3};
 use brazilnut_grains::Grains;
+use serde::{Deserialize, Serialize};
 
 /// The state of a run at one step boundary, read-only.
 ///
@@ -77,7 +78,7 @@ pub struct WallAt<'a> {
 }
 
 /// Counts of contacts that have begun since the start.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Collisions {
     /// Between grains.
     pub grains: u64,

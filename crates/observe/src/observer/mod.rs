@@ -2,13 +2,23 @@
 
 pub mod menu;
 
+mod base_pressure;
 mod bed;
+mod collisions;
 mod convection;
+mod diffusion;
 mod energy;
 mod field;
+mod flow;
+mod flow_field;
+mod layers;
+mod mixing;
 mod profile;
+mod radial;
+mod rise;
 mod surface;
 mod trajectory;
+mod walls;
 mod zone_stats;
 
 use crate::view::{Needs, View};

@@ -1,7 +1,8 @@
 //! Correlation functions by fast Fourier transform.
 
-use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlanner};
+use std::sync::Arc;
 
 /// Mean products <x(t) y(t + tau)> for lags `-max..=max` (samples), `2 max + 1` values.
 ///
@@ -42,32 +43,110 @@ pub fn cross(x: &[f64], y: &[f64], max: usize) -> Vec<f64> {
 /// Mean products <x(t) x(t + tau)> for lags `0..=max` (samples) (Lan eq. 3-2-2b).
 #[must_use]
 pub fn auto(x: &[f64], max: usize) -> Vec<f64> {
-    let c = cross(x, x, max);
-    c[c.len() / 2..].to_vec()
+    let mut c = Correlator::new(x.len(), max);
+    let mut out = vec![0.0; c.lags()];
+    c.auto_pair(x, &[], &mut out, &mut []);
+    out
 }
 
 /// Mean square displacement <[r(t + tau) - r(t)]²> for lags `0..=max` of a path (Lan eq. 3-3-7),
 /// from squares and an autocorrelation: N log N operations.
 #[must_use]
 pub fn mean_square_displacement(path: &[f64], max: usize) -> Vec<f64> {
-    let n = path.len();
-    if n == 0 {
-        return vec![];
-    }
-    let max = max.min(n - 1);
     // About the middle, so that the difference of large squares loses least.
-    let middle = path.iter().sum::<f64>() / n as f64;
+    let middle = path.iter().sum::<f64>() / path.len() as f64;
     let r: Vec<f64> = path.iter().map(|x| x - middle).collect();
-    let product = auto(&r, max);
-    let mut ends: f64 = 2.0 * r.iter().map(|x| x * x).sum::<f64>();
-    (0..=max)
-        .map(|lag| {
-            if lag > 0 {
-                ends -= r[lag - 1] * r[lag - 1] + r[n - lag] * r[n - lag];
-            }
-            if lag == 0 { 0.0 } else { ends / (n - lag) as f64 - 2.0 * product[lag] }
+    let mut product = auto(&r, max);
+    displacement(&r, &mut product);
+    product
+}
+
+/// Turns mean products of a path into mean square displacements:
+/// <[r(t + tau) - r(t)]²> = <r²(t) + r²(t + tau)> - 2 <r(t) r(t + tau)>.
+pub fn displacement(path: &[f64], product: &mut [f64]) {
+    let n = path.len();
+    let mut ends: f64 = 2.0 * path.iter().map(|x| x * x).sum::<f64>();
+    for (lag, p) in product.iter_mut().enumerate() {
+        if lag > 0 {
+            ends -= path[lag - 1] * path[lag - 1] + path[n - lag] * path[n - lag];
+        }
+        *p = if lag == 0 { 0.0 } else { ends / (n - lag) as f64 - 2.0 * *p };
+    }
+}
+
+/// Autocorrelations of many series of one length, two at a time, with one plan.
+pub struct Correlator {
+    samples: usize,
+    lags: usize,
+    forward: Arc<dyn Fft<f64>>,
+    inverse: Arc<dyn Fft<f64>>,
+    z: Vec<Complex<f64>>,
+    product: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+}
+
+impl Correlator {
+    /// For series of `samples` samples and lags `0..=max`.
+    #[must_use]
+    pub fn new(samples: usize, max: usize) -> Self {
+        let lags = max.min(samples.saturating_sub(1)) + 1;
+        let size = smooth(samples + lags);
+        let mut planner = FftPlanner::new();
+        let (forward, inverse) = (planner.plan_fft_forward(size), planner.plan_fft_inverse(size));
+        let need = forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len());
+        let zero = Complex::default();
+        Self {
+            samples,
+            lags,
+            forward,
+            inverse,
+            z: vec![zero; size],
+            product: vec![zero; size],
+            scratch: vec![zero; need],
+        }
+    }
+
+    /// Number of lags, 0 included.
+    #[must_use]
+    pub fn lags(&self) -> usize {
+        self.lags
+    }
+
+    /// Autocorrelations of `x` and `y` (either may be empty), unbiased, the mean not taken off.
+    pub fn auto_pair(&mut self, x: &[f64], y: &[f64], cx: &mut [f64], cy: &mut [f64]) {
+        let size = self.z.len();
+        for (k, z) in self.z.iter_mut().enumerate() {
+            *z = Complex::new(x.get(k).copied().unwrap_or(0.0), y.get(k).copied().unwrap_or(0.0));
+        }
+        self.forward.process_with_scratch(&mut self.z, &mut self.scratch);
+        for k in 0..size {
+            // Spectra of the two real series out of that of x + i y; their powers go back together.
+            let (a, b) = (self.z[k], self.z[(size - k) % size].conj());
+            self.product[k] = Complex::new((a + b).norm_sqr(), (a - b).norm_sqr()) * 0.25;
+        }
+        self.inverse.process_with_scratch(&mut self.product, &mut self.scratch);
+        let mean = |k: usize| 1.0 / (size as f64 * (self.samples - k) as f64);
+        for (k, c) in cx.iter_mut().enumerate() {
+            *c = self.product[k].re * mean(k);
+        }
+        for (k, c) in cy.iter_mut().enumerate() {
+            *c = self.product[k].im * mean(k);
+        }
+    }
+}
+
+/// The next number of the form 2^a 3^b 5^c: transforms of such sizes are fast.
+fn smooth(n: usize) -> usize {
+    (n.max(1)..)
+        .find(|&m| {
+            [2, 3, 5].iter().fold(m, |mut m, p| {
+                while m.is_multiple_of(*p) {
+                    m /= p;
+                }
+                m
+            }) == 1
         })
-        .collect()
+        .unwrap_or(n)
 }
 
 /// Integrated correlation time of a series in samples, 1/2 + sum rho(tau), summed
@@ -138,6 +217,18 @@ mod tests {
             // Rounding of a path offset by 1e3, after centring.
             assert!((m - direct).abs() < 1e-11, "{lag}");
         }
+    }
+
+    #[test]
+    fn two_series_at_a_time() {
+        let (x, y) = (white(100, 1.0, 1), white(100, 3.0, 2));
+        let mut c = Correlator::new(100, 30);
+        let (mut cx, mut cy) = (vec![0.0; 31], vec![0.0; 31]);
+        c.auto_pair(&x, &y, &mut cx, &mut cy);
+        for (a, b) in cx.iter().zip(auto(&x, 30)).chain(cy.iter().zip(auto(&y, 30))) {
+            assert!((a - b).abs() < 1e-13);
+        }
+        assert_eq!([smooth(7), smooth(3000), smooth(3001)], [8, 3000, 3072]);
     }
 
     #[test]

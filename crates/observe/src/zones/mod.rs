@@ -3,10 +3,12 @@
 
 pub mod ball;
 pub mod grid;
+pub mod region;
 pub mod rings;
 pub mod sums;
 
 pub use grid::{Body, Direction, Grid};
+pub use region::Region;
 pub use rings::Rings;
 
 use brazilnut_base::Vec3;
