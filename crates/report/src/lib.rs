@@ -1,7 +1,6 @@
 //! Pictures of a bed, plots, and the report that holds them in one file.
 //!
-//! Everything is drawn here, without a display, a font file or a network: the
-//! same run gives the same bytes on every machine.
+//! Everything is drawn here, without a display, a font file or a network.
 
 pub mod colour;
 pub mod html;

@@ -7,7 +7,8 @@ use crate::error::At;
 use crate::{Appender, StoreError};
 use brazilnut_base::{Column, Table};
 use std::fmt::Write as _;
-use std::fs;
+use std::fs::{self, File};
+use std::io::Read;
 use std::path::Path;
 
 /// A table on disk that grows row by row.
@@ -36,8 +37,10 @@ impl TableFile {
     /// If it is missing, too short, or has other columns.
     pub fn resume(path: &Path, columns: &[Column], length: u64) -> Result<Self, StoreError> {
         let expected = head(columns).map_err(|why| StoreError::content(path, "continue", why))?;
-        let found = fs::read(path).at(path, "read")?;
-        if !found.starts_with(expected.as_bytes()) || length < expected.len() as u64 {
+        let mut found = vec![];
+        let limit = expected.len() as u64;
+        File::open(path).and_then(|f| f.take(limit).read_to_end(&mut found)).at(path, "read")?;
+        if found != expected.as_bytes() || length < limit {
             let why = format!(
                 "its columns differ from those of this run ({})",
                 expected.lines().next().unwrap_or("")

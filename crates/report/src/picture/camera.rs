@@ -41,6 +41,8 @@ pub(crate) struct Lens {
     pub nearness: f64,
     /// Samples per metre in the plane through the target.
     pub zoom: f64,
+    /// Height of the picture in samples.
+    pub height: f64,
     centre: [f64; 2],
 }
 
@@ -55,8 +57,16 @@ impl Camera {
         let half = (0.5 * (high - low)).length().max(1e-30);
         // Nearer than twice the box, perspective is a distortion.
         let nearness = (0.5 * self.perspective.clamp(0.0, 50.0)).to_radians().tan() / half;
-        let lens =
-            Lens { target: 0.5 * (low + high), right, up, forward, nearness, zoom: 1.0, centre: [0.0; 2] };
+        let lens = Lens {
+            target: 0.5 * (low + high),
+            right,
+            up,
+            forward,
+            nearness,
+            zoom: 1.0,
+            height: height as f64,
+            centre: [0.0; 2],
+        };
 
         let (min, max) = lens.frame((low, high));
         let (w, h) = (width as f64, height as f64);

@@ -20,7 +20,6 @@ pub(crate) struct Stage<'a> {
     middle: Vec3,
     reach: f64,
     depth: [f64; 2],
-    rows: f64,
 }
 
 impl<'a> Stage<'a> {
@@ -39,7 +38,6 @@ impl<'a> Stage<'a> {
             middle: 0.5 * (low + high),
             reach: half,
             depth: [-half, half],
-            rows: 2.0 * half * lens.zoom,
         }
     }
 
@@ -79,10 +77,8 @@ impl<'a> Stage<'a> {
         let (from, along) = (self.lens.world(o), self.lens.unturn(d));
         let (a, b) = ((low - from) / along, (high - from) / along);
         let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element().min(depth));
-        if leave <= enter {
-            return light;
-        }
-        let way = (leave - enter) * d.length() / self.reach;
+        // A line of sight within a face gives NaN, which `max` drops.
+        let way = (leave - enter).max(0.0) * d.length() / self.reach;
         // Water takes red first; the little that it scatters is pale blue.
         const TAKEN: Rgb = [0.17, 0.055, 0.025];
         std::array::from_fn(|i| light[i] * (-TAKEN[i] * way).exp())
@@ -109,7 +105,7 @@ impl<'a> Stage<'a> {
 
     /// Light from where no grain is: paper, with the shadow of the bed where the floor is seen.
     fn ground(&self, o: Vec3, d: Vec3, row: f64) -> Rgb {
-        let paper = paper(row / self.rows);
+        let paper = paper(row / self.lens.height);
         let Some(height) = self.floor else { return paper };
         let up = self.lens.vertical();
         // Height of the line of sight against depth z: h(z) = h₀ + z (up·d).

@@ -21,13 +21,9 @@ pub(super) fn draw(title: &str, x: &Axis, y: &Axis, curves: &[Curve]) -> String 
     let (xs, ys) = extents(x, y, curves);
     let mut sx = Scale::new(x, xs.start, xs.end, Fit::Tight, 7);
     let mut sy = Scale::new(y, ys.start, ys.end, Fit::Roomy, 6);
-    let shown = if curves.iter().any(|c| !c.label.is_empty())
-        && curves.len() + usize::from(curves.len() == 1 && curves[0].label != y.label) > 1
-    {
-        curves
-    } else {
-        &[]
-    };
+    // One curve that says what the axis says needs no legend.
+    let told = |c: &Curve| c.label.is_empty() || c.label == y.label;
+    let shown = if curves.len() < 2 && curves.iter().all(told) { &[] } else { curves };
 
     let mut paper = Paper::new(WIDTH, HEIGHT, title);
     let mut top = heading(&mut paper, title);

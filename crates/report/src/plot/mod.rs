@@ -1,8 +1,7 @@
 //! Figures as SVG: curves with errors, maps with arrows.
 //!
 //! Drawn by hand, not by a plotting library: maps here carry arrows with a key
-//! and outlines on physical axes, colours follow a dark page, and the text of
-//! every plot is the same on every machine.
+//! and outlines on physical axes, and colours follow a dark page.
 
 mod axis;
 mod curves;
