@@ -120,6 +120,26 @@ impl Faces {
         }
     }
 
+    /// All components, the one normal to `order[0]` first.
+    #[must_use]
+    pub(crate) fn in_order(&self, order: [usize; 3]) -> [&[f64]; 3] {
+        order.map(|axis| self.component(axis))
+    }
+
+    /// All components to be changed, the one normal to `order[0]` first.
+    #[must_use]
+    pub(crate) fn in_order_mut(&mut self, order: [usize; 3]) -> [&mut [f64]; 3] {
+        let (x, y, z) = (&mut self.x.values[..], &mut self.y.values[..], &mut self.z.values[..]);
+        match order {
+            [0, 1, 2] => [x, y, z],
+            [0, 2, 1] => [x, z, y],
+            [1, 0, 2] => [y, x, z],
+            [1, 2, 0] => [y, z, x],
+            [2, 0, 1] => [z, x, y],
+            _ => [z, y, x],
+        }
+    }
+
     /// The shared layout.
     #[must_use]
     pub fn layout(&self) -> Layout {

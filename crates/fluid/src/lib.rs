@@ -11,22 +11,32 @@
 //! through [`Medium`] and [`Predicted`].
 
 pub mod boundary;
+pub mod exact;
 pub mod field;
 pub mod flow;
+pub(crate) mod ghosts;
 pub mod grid;
+mod health;
+pub(crate) mod inflow;
 pub(crate) mod lanes;
+pub mod limits;
 pub mod medium;
+pub(crate) mod momentum;
 pub(crate) mod parallel;
 pub mod pressure;
+pub(crate) mod project;
+pub(crate) mod shape;
 pub mod solid;
 pub mod solver;
 pub mod spec;
+pub(crate) mod step;
 
 pub use boundary::{Boundary, Profile};
 pub use field::{CellField, FaceField, Faces};
 pub use flow::{Flow, Past};
 pub use grid::{Grid, Layout};
+pub use limits::step_limits;
 pub use medium::{Medium, Mixture, Resistance};
 pub use solid::Solid;
-pub use solver::{Predicted, Solver, step_limits};
+pub use solver::{Predicted, Solver};
 pub use spec::{Advection, Diffusion, FluidSpec, Instructions, Scheme, SpecError};

@@ -9,9 +9,9 @@ pub(crate) const WORTH_THREADS: usize = 8192;
 /// Calls `work` for each of `0..count`, side by side if `parallel`.
 pub(crate) fn for_each(parallel: bool, count: usize, work: impl Fn(usize) + Sync) {
     if parallel && count > 1 {
-        (0..count).into_par_iter().for_each(|i| work(i));
+        (0..count).into_par_iter().for_each(&work);
     } else {
-        (0..count).for_each(work);
+        (0..count).for_each(&work);
     }
 }
 

@@ -2,16 +2,34 @@
 
 use crate::field::{CellField, Faces};
 use crate::flow::Flow;
+use crate::ghosts;
 use crate::grid::Grid;
+use crate::inflow;
+use crate::lanes::Path;
 use crate::medium::Medium;
+use crate::pressure::{Poisson, Transforms};
+use crate::shape::Shape;
 use crate::spec::{FluidSpec, SpecError};
-use brazilnut_base::{Blowup, Tick, Vec3};
+use crate::step;
+use brazilnut_base::{Tick, Vec3};
 
 /// Advances a [`Flow`]; holds nothing that a resumed run would miss.
 #[derive(Debug)]
 pub struct Solver {
-    spec: FluidSpec,
-    predicted: Faces,
+    pub(crate) spec: FluidSpec,
+    pub(crate) shape: Shape,
+    pub(crate) path: Path,
+    pub(crate) poisson: Poisson,
+    /// Prescribed normal velocities at the ends of level 0, empty where there are none.
+    pub(crate) inflow: [Vec<f64>; 2],
+    /// v*
+    pub(crate) star: Faces,
+    /// Right side and solution of the pressure equation.
+    pub(crate) data: Vec<f64>,
+    /// Largest sum of |v| / h of each plane after the last step, 1/s.
+    pub(crate) peaks: Vec<f64>,
+    /// Whether `peaks` holds for the flow at hand.
+    pub(crate) watched: bool,
 }
 
 /// The velocity between prediction and projection, lent to whoever imposes solids.
@@ -40,7 +58,19 @@ impl Solver {
     /// All that is wrong with `spec`.
     pub fn new(spec: FluidSpec) -> Result<Self, SpecError> {
         let spec = spec.checked()?;
-        Ok(Self { predicted: Faces::new(&spec.grid), spec })
+        let shape = Shape::new(&spec.grid);
+        let poisson = Poisson::new(&spec.grid, inflow::held(&spec), spec.instructions, Transforms::Best);
+        Ok(Self {
+            path: Path::choose(spec.instructions),
+            inflow: inflow::profiles(&spec, &shape),
+            star: Faces::new(&spec.grid),
+            data: vec![0.0; poisson.len()],
+            peaks: vec![0.0; shape.n[2]],
+            watched: false,
+            shape,
+            poisson,
+            spec,
+        })
     }
 
     /// The specification as used; its grid is laid out for the sides.
@@ -58,7 +88,9 @@ impl Solver {
     /// Fluid at rest, with boundary values of time 0.
     #[must_use]
     pub fn start(&self) -> Flow {
-        Flow::at_rest(&self.spec.grid)
+        let mut flow = Flow::at_rest(&self.spec.grid);
+        self.refresh(&mut flow, 0.0);
+        flow
     }
 
     /// One step. `body` is the uniform acceleration (gravity less that of the
@@ -70,40 +102,16 @@ impl Solver {
         tick: Tick,
         body: Vec3,
         medium: &Medium,
-        mut during: impl FnMut(&mut Predicted<'_>),
+        during: impl FnMut(&mut Predicted<'_>),
     ) {
-        let _ = (body, medium);
-        let (grid, density) = (&self.spec.grid, self.spec.density);
-        self.predicted.clone_from(&flow.velocity);
-        during(&mut Predicted {
-            grid,
-            velocity: &mut self.predicted,
-            before: &flow.velocity,
-            pressure: &flow.pressure,
-            tick,
-            density,
-        });
-        flow.velocity.clone_from(&self.predicted);
+        step::advance(self, flow, tick, body, medium, during);
+        self.watched = true;
     }
 
-    /// Refills all ghosts and wall values for time `time` (s), after a change from outside.
+    /// Refills wall values and ghosts for time `time` (s), after a change from outside.
     pub fn refresh(&self, flow: &mut Flow, time: f64) {
-        let _ = (flow, time);
+        let table = ghosts::table(&self.spec, &self.shape, time);
+        inflow::impose(&self.inflow, &self.spec, &self.shape, &mut flow.velocity);
+        ghosts::fill(&mut flow.velocity, &mut flow.pressure, &self.shape, &table);
     }
-
-    /// Checks that all is finite and the Courant number within the limit.
-    ///
-    /// # Errors
-    /// The step, the quantity and the cell where it broke.
-    pub fn health(&self, flow: &Flow, tick: Tick) -> Result<(), Blowup> {
-        let _ = (flow, tick);
-        Ok(())
-    }
-}
-
-/// Upper limits of the step: name and seconds, for flow no faster than `speed` (m/s).
-#[must_use]
-pub fn step_limits(spec: &FluidSpec, speed: f64) -> Vec<(&'static str, f64)> {
-    let _ = (spec, speed);
-    vec![]
 }

@@ -75,7 +75,7 @@ impl Poisson {
             }
         });
         let pitch = 8 * (cells[0].div_ceil(8) | 1);
-        let plane = 8 * (pitch / 8 * cells[1] | 1);
+        let plane = 8 * ((pitch / 8 * cells[1]) | 1);
         // Groups of lines along the slowest direction are always whole.
         let planes = if cells[2] == 1 { 8 } else { cells[2].next_multiple_of(8) };
         let block = Block { pitch, rows: cells[1], plane, planes };
@@ -172,6 +172,12 @@ impl Poisson {
         direction: Direction,
     ) {
         let pitch = self.block.pitch;
+        if direction == Direction::Forward {
+            // The padding shares transforms with the last columns: what it holds reaches them as rounding.
+            for row in plane.chunks_exact_mut(pitch) {
+                row[self.cells[0]..].fill(0.0);
+            }
+        }
         transform(l, &self.plans[0], &mut Plane { data: plane, pitch }, pitch, direction);
     }
 

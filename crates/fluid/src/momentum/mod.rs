@@ -1,0 +1,5 @@
+//! The momentum equation without its new pressure.
+
+pub(crate) mod advection;
+pub(crate) mod predict;
+pub(crate) mod rates;

@@ -1,0 +1,119 @@
+//! One step, as a list of calls.
+
+use crate::boundary::Boundary;
+use crate::field::Faces;
+use crate::flow::{Flow, Past};
+use crate::ghosts;
+use crate::medium::Medium;
+use crate::momentum::advection::Factors;
+use crate::momentum::predict::{Recipe, predict};
+use crate::project::{End, Projection};
+use crate::solver::{Predicted, Solver};
+use crate::spec::{FluidSpec, Scheme};
+use brazilnut_base::{Side, Tick, Vec3};
+
+/// Predict, let a coupling change the prediction, project.
+pub(crate) fn advance(
+    solver: &mut Solver,
+    flow: &mut Flow,
+    tick: Tick,
+    body: Vec3,
+    medium: &Medium,
+    mut during: impl FnMut(&mut Predicted<'_>),
+) {
+    let _ = medium;
+    let recipe = recipe(solver, flow, tick, body);
+    predict_velocity(solver, flow, tick, &recipe);
+    during(&mut Predicted {
+        grid: &solver.spec.grid,
+        velocity: &mut solver.star,
+        before: &flow.velocity,
+        pressure: &flow.pressure,
+        tick,
+        density: solver.spec.density,
+    });
+    project(solver, flow, tick);
+    flow.body = absorbed(solver, body);
+}
+
+/// The part of `body` that the pressure balances: along directions with ends.
+fn absorbed(solver: &Solver, mut body: Vec3) -> Vec3 {
+    for axis in 0..3 {
+        if solver.spec.grid.sides[axis] != Side::Walls {
+            body[axis] = 0.0;
+        }
+    }
+    body
+}
+
+fn recipe(solver: &Solver, flow: &Flow, tick: Tick, body: Vec3) -> Recipe {
+    let (spec, shape) = (&solver.spec, &solver.shape);
+    let nu = spec.kinematic_viscosity();
+    let driving = body - absorbed(solver, body);
+    let second = spec.scheme == Scheme::SecondOrder;
+    let extrapolated = flow.past.as_ref().map_or(0.0, |past| 0.5 * tick.dt / past.dt);
+    Recipe {
+        advection: spec.advection,
+        factors: shape.h.map(|h| Factors { advection: 0.25 / h, diffusion: nu / (h * h) }),
+        body: [0, 1, 2].map(|l| if shape.side[l] == Side::Flat { 0.0 } else { driving[shape.axis[l]] }),
+        weights: [tick.dt * (1.0 + extrapolated), tick.dt * extrapolated],
+        pressure: shape.h.map(|h| if second { tick.dt / (spec.density * h) } else { 0.0 }),
+        open_end: matches!(spec.side(shape.axis[0], 1), Some(Boundary::Outflow { .. })),
+    }
+}
+
+fn predict_velocity(solver: &mut Solver, flow: &mut Flow, tick: Tick, recipe: &Recipe) {
+    let order = solver.shape.axis;
+    if solver.spec.scheme == Scheme::SecondOrder {
+        let grid = &solver.spec.grid;
+        flow.past.get_or_insert_with(|| Past { rate: Faces::new(grid), dt: tick.dt }).dt = tick.dt;
+    }
+    let past = flow.past.as_mut().map(|past| past.rate.in_order_mut(order));
+    predict(
+        solver.path,
+        solver.poisson.parallel,
+        &solver.shape,
+        recipe,
+        flow.velocity.in_order(order),
+        &flow.pressure.values,
+        solver.star.in_order_mut(order),
+        past,
+    );
+}
+
+fn project(solver: &mut Solver, flow: &mut Flow, tick: Tick) {
+    let order = solver.shape.axis;
+    let incremental = solver.spec.scheme == Scheme::SecondOrder;
+    let table = ghosts::table(&solver.spec, &solver.shape, tick.end());
+    let ends = ends(&solver.spec, &solver.inflow, incremental);
+    let projection = Projection {
+        path: solver.path,
+        parallel: solver.poisson.parallel,
+        shape: &solver.shape,
+        poisson: &solver.poisson,
+        ends: &ends,
+        strength: solver.spec.density / tick.dt,
+        incremental,
+        ghosts: &table,
+    };
+    projection.gather(solver.star.in_order_mut(order), &mut solver.data);
+    solver.poisson.middle(&mut solver.data);
+    let velocity = flow.velocity.in_order_mut(order);
+    let pressure = &mut flow.pressure.values;
+    projection.scatter(solver.star.in_order(order), &mut solver.data, velocity, pressure, &mut solver.peaks);
+    for level in 0..3 {
+        let field = flow.velocity.component_mut(order[level]);
+        table[level][2].fill_units(field, solver.shape.stride[2]);
+    }
+    table[3][2].fill_units(&mut flow.pressure.values, solver.shape.stride[2]);
+}
+
+/// What the projection meets at the ends of level 0.
+fn ends<'a>(spec: &FluidSpec, inflow: &'a [Vec<f64>; 2], incremental: bool) -> [End<'a>; 2] {
+    [0, 1].map(|end| match spec.side(spec.grid.line_axis, end) {
+        None => End::Periodic,
+        Some(Boundary::Outflow { pressure }) => End::Held(if incremental { 0.0 } else { *pressure }),
+        Some(Boundary::Inflow { .. }) => End::Inflow(&inflow[end]),
+        Some(_) => End::Closed,
+    })
+}
