@@ -1,0 +1,93 @@
+//! A spring along the surface that remembers its force, gives in at a limit, and never gives back more than it took.
+
+use crate::contact::law::Touch;
+use crate::contact::real::{Real, V3};
+
+/// Keeps divisions by a stiffness finite where nothing touches, N/m or N m.
+const TINY: f64 = 1e-30;
+
+/// Outcome of one step of a spring, a dashpot beside it and a slider behind both.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mobilised<R> {
+    /// What the spring holds half a step on, to be remembered.
+    pub held: V3<R>,
+    /// Force with the dashpot, at most the limit.
+    pub force: V3<R>,
+    /// Energy stored.
+    pub stored: R,
+    /// Energy lost in the slider.
+    pub slid: R,
+    /// Energy lost in the dashpot.
+    pub damped: R,
+    /// Energy lost because the stiffness changed under load.
+    pub latched: R,
+}
+
+/// Advances a spring that held `held` at stiffness `before` through `rate * dt` at stiffness `now`.
+///
+/// `rate` belongs to the time of the force, so the spring is carried from half a step before to half a
+/// step after it, and the force is the mean of the two: second order, where the sum of whole steps would
+/// damp the spring by `k dt/2`.
+///
+/// When the stiffness falls the force falls with it, when it rises the force stays: either way the
+/// stored energy `held²/(2 k)` cannot grow without work (Thornton, Cummins & Cleary 2013).
+#[inline(always)]
+pub(super) fn mobilise<R: Real>(
+    held: V3<R>,
+    before: R,
+    now: R,
+    rate: V3<R>,
+    damping: R,
+    limit: R,
+    dt: R,
+) -> Mobilised<R> {
+    let (tiny, half, one) = (R::splat(TINY), R::splat(0.5), R::splat(1.0));
+    let (before, now) = (before.max(tiny), now.max(tiny));
+    let (soft_before, soft_now) = (half / before, half / now);
+    let kept = held * (now / before).min(one);
+    let latched = held.dot(held) * soft_before - kept.dot(kept) * soft_now;
+
+    let change = rate * (now * dt);
+    let wanted = kept - change * half - rate * damping;
+    let (force, slides) = capped(wanted, limit);
+    let (held, _) = capped(kept - change, limit);
+    let damped = (damping * rate.dot(rate) * dt).keep(!slides);
+    // What the contact took, less what the spring and the dashpot account for, is the slider's: never negative.
+    let taken = -force.dot(rate) * dt;
+    let slid = taken - damped - (held.dot(held) - kept.dot(kept)) * soft_now;
+    let spring = V3::pick(slides, force, kept - change * half);
+    Mobilised { held, force, stored: spring.dot(spring) * soft_now, slid, damped, latched }
+}
+
+/// `v` shortened to `limit`, and whether it had to be.
+#[inline(always)]
+pub(super) fn capped<R: Real>(v: V3<R>, limit: R) -> (V3<R>, R::Mask) {
+    let size = v.length();
+    let over = limit.lt(size);
+    // Where it is over the limit the size is positive, so the quotient is finite.
+    (V3::pick(over, v * (limit / R::pick(over, size, R::splat(1.0))), v), over)
+}
+
+/// `held` turned with the contact plane: projected on the plane of `touch`, length kept (Walton & Braun 1986).
+///
+/// Lan 2-4-16 lets the length shrink; the difference is of second order in the turn of one step.
+#[inline(always)]
+pub(super) fn turned<R: Real>(held: V3<R>, touch: &Touch<R>) -> V3<R> {
+    let flat = held.reject(touch.normal);
+    let left = flat.dot(flat);
+    let any = R::zero().lt(left);
+    let scale = (held.dot(held) / R::pick(any, left, R::splat(1.0))).sqrt();
+    flat * R::pick(any, scale, R::splat(1.0))
+}
+
+/// The first three numbers of `memory` as a vector.
+#[inline(always)]
+pub(super) fn vector<R: Real>(memory: &[R]) -> V3<R> {
+    V3::new(memory[0], memory[1], memory[2])
+}
+
+/// Writes a vector to the first three numbers of `memory`.
+#[inline(always)]
+pub(super) fn store<R: Real>(memory: &mut [R], v: V3<R>) {
+    (memory[0], memory[1], memory[2]) = (v.x, v.y, v.z);
+}
