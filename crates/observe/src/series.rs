@@ -4,6 +4,7 @@ use crate::accumulate::{Batched, Estimate};
 use crate::observer::Sampling;
 use crate::phase::PhaseAverage;
 use crate::stats::blocking::Blocking;
+use crate::stats::correlogram::Correlogram;
 use crate::stats::spectrum::Welch;
 use crate::stats::steady::mser;
 use brazilnut_base::figure::{Axis, Body, Curve, Figure};
@@ -11,6 +12,9 @@ use brazilnut_base::{Column, Table};
 use serde::{Deserialize, Serialize};
 
 /// Statistics of the columns of a series, in memory of fixed size.
+///
+/// Where a segment length is given, the spectrum and the autocorrelation of
+/// every column are taken over segments of so many samples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Series {
     sampling: Sampling,
@@ -19,6 +23,7 @@ pub struct Series {
     batches: Batched,
     phases: Option<PhaseAverage>,
     spectrum: Option<Welch>,
+    correlogram: Option<Correlogram>,
 }
 
 /// Batches of the steady-state test.
@@ -40,6 +45,7 @@ impl Series {
             batches: Batched::new(2 * columns, BATCHES, sampling.per_cycle.unwrap_or(1)),
             phases: per_cycle.map(|n| PhaseAverage::new(n as usize, 2 * columns, CYCLES)),
             spectrum: segment.map(|n| Welch::new(columns, n)),
+            correlogram: segment.map(|n| Correlogram::new(columns, n)),
         }
     }
 
@@ -56,6 +62,9 @@ impl Series {
         if let Some(s) = &mut self.spectrum {
             s.add(row);
         }
+        if let Some(c) = &mut self.correlogram {
+            c.add(row);
+        }
     }
 
     /// The tables, with the columns' names and units.
@@ -67,6 +76,9 @@ impl Series {
         }
         if let Some(s) = self.spectrum.as_ref().filter(|s| s.segments() > 0) {
             all.push(("spectrum".into(), self.spectrum(s, columns)));
+        }
+        if let Some(c) = self.correlogram.as_ref().filter(|c| c.segments() > 0) {
+            all.push(("autocorrelation".into(), self.autocorrelation(c, columns)));
         }
         all
     }
@@ -112,6 +124,21 @@ impl Series {
                 row.push(p);
             }
         }
+        t
+    }
+
+    fn autocorrelation(&self, c: &Correlogram, columns: &[Column]) -> Table {
+        let mut t = Table::new(&[("lag", "s")]);
+        t.columns.extend(columns.iter().map(|c| Column::new(&*c.name, "1")));
+        let curves: Vec<Vec<f64>> = (0..columns.len()).map(|k| c.normalised(k)).collect();
+        let lags = curves.first().map_or(0, Vec::len);
+        t.rows = (0..lags)
+            .map(|l| {
+                std::iter::once(l as f64 * self.sampling.interval)
+                    .chain(curves.iter().map(|c| c[l]))
+                    .collect()
+            })
+            .collect();
         t
     }
 

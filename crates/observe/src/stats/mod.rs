@@ -2,6 +2,7 @@
 
 pub mod blocking;
 pub mod correlation;
+pub mod correlogram;
 pub mod fit;
 pub mod spectrum;
 pub mod steady;
