@@ -11,7 +11,8 @@ pub struct Accuracy<const N: usize> {
     pub relative: f64,
     /// Absolute error per step, in the unit of each component.
     pub absolute: [f64; N],
-    /// Longest step; a fifth of the shortest stay of an event function on one side is safe.
+    /// Longest step; event functions are looked at four times in each, so that
+    /// a stay on one side should last longer than a quarter of it.
     pub longest: f64,
 }
 
@@ -58,9 +59,9 @@ pub enum Ending<const N: usize> {
 /// Integrates y' = `slope`(t, y) from `t0` to `t_end`, or to the first fall of
 /// one of the `events` functions through zero; `seen` gets every step.
 ///
-/// A function that starts at zero and falls is an event at once; one that
-/// starts at zero and rises is not. Falls are looked for at four points of
-/// each step, refined on the polynomial, then on the fifth-order formula.
+/// A function that starts below zero, or at zero and falls, is an event at
+/// once; one that starts at zero and rises is not. Falls are looked for at four
+/// points of each step, refined on the polynomial, then on the fifth-order formula.
 pub fn integrate<const N: usize, const M: usize>(
     slope: impl Fn(f64, &[f64; N]) -> [f64; N],
     events: impl Fn(f64, &[f64; N]) -> [f64; M],
@@ -70,9 +71,14 @@ pub fn integrate<const N: usize, const M: usize>(
     accuracy: &Accuracy<N>,
     mut seen: impl FnMut(&Step<N>),
 ) -> Ending<N> {
+    // Of two events at one time the second one starts below zero by rounding.
+    if let Some(which) = events(t0, &y0).iter().position(|e| *e < 0.0) {
+        return Ending::Event { which, time: t0, state: y0 };
+    }
     let (mut t, mut y) = (t0, y0);
     let mut k1 = slope(t, &y);
-    let mut h = (accuracy.longest * 0.01).min(t_end - t0);
+    // Short at first, so that a brief stay above zero after the start is not stepped over.
+    let mut h = (accuracy.longest * 1e-4).min(t_end - t0);
     while t < t_end {
         h = h.min(accuracy.longest);
         let last = t + h >= t_end;
@@ -337,6 +343,8 @@ mod tests {
         assert!((time - std::f64::consts::PI).abs() < 1e-9);
         let fall = integrate(oscillator, |_, y| [y[0]], 0.0, [0.0, -1.0], 9.0, &accuracy(1e-10), |_| ());
         assert_eq!(fall, Ending::Event { which: 0, time: 0.0, state: [0.0, -1.0] });
+        let below = integrate(oscillator, |_, y| [y[0]], 0.0, [-1e-18, 1.0], 9.0, &accuracy(1e-10), |_| ());
+        assert_eq!(below, Ending::Event { which: 0, time: 0.0, state: [-1e-18, 1.0] });
     }
 
     #[test]

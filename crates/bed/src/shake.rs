@@ -71,12 +71,6 @@ impl Shake {
         self.harmonics.iter().map(|[a, w, p]| -a * (w * t + p).sin()).sum()
     }
 
-    /// Displacement of the floor, m.
-    #[must_use]
-    pub fn displacement(&self, t: f64) -> f64 {
-        self.motion.at(t).displacement.z
-    }
-
     /// Effective gravity on the floor g + z̈_c, m/s²; what lies there is thrown when it turns negative.
     #[must_use]
     pub fn weight(&self, t: f64) -> f64 {

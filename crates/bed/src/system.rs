@@ -83,6 +83,14 @@ pub(crate) fn verdict(refusals: Refusals) -> Result<(), Refusals> {
     if refusals.is_empty() { Ok(()) } else { Err(refusals) }
 }
 
+/// The refusal of an integration that came to a standstill at time `t`, s.
+pub(crate) fn stalled(t: f64) -> Refusals {
+    vec![(
+        "tolerance",
+        format!("the integration came to a standstill at t = {t:.6} s: try another tolerance"),
+    )]
+}
+
 /// What a model hands over for the run directory.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {

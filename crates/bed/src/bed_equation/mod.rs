@@ -35,10 +35,11 @@ pub struct Medium {
 }
 
 impl Medium {
-    /// Particle Reynolds number ρ d |V0| / η (Clément eq. 2.73).
+    /// Particle Reynolds number ρ d |V0| / η (Clément eq. 2.73); 0 without density, even without viscosity.
     #[must_use]
     pub fn reynolds(&self, v0: f64) -> f64 {
-        self.density * self.diameter * v0.abs() / self.viscosity
+        let inertia = self.density * self.diameter * v0.abs();
+        if inertia == 0.0 { 0.0 } else { inertia / self.viscosity }
     }
 }
 

@@ -38,6 +38,8 @@ fn becomes_linear_at_rest_and_without_density() {
         assert!((slow / at_rest - 1.0).abs() < 3e-5, "{}", e.name());
         let massless = Medium { density: 0.0, ..WATER };
         assert_eq!(e.coefficient(0.1, &massless), e.coefficient(0.0, &massless), "{}", e.name());
+        let nothing = Medium { viscosity: 0.0, ..massless };
+        assert_eq!(e.gradient(0.1, &nothing), 0.0, "{}", e.name());
     }
 }
 

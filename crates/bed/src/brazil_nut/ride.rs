@@ -4,7 +4,7 @@ use super::BrazilNutSpec;
 use crate::bed_equation::{BedLaw, Medium};
 use crate::ode::{Accuracy, Ending, Step, integrate};
 use crate::shake::Shake;
-use crate::system::Refusals;
+use crate::system::{Refusals, stalled};
 use crate::with_bed_law;
 use std::f64::consts::TAU;
 
@@ -40,11 +40,11 @@ pub struct BrazilNut {
 /// Follows the intruder to the surface.
 ///
 /// # Errors
-/// The refusals of [`BrazilNutSpec::validate`].
+/// The refusals of [`BrazilNutSpec::validate`], or an integration at a standstill.
 pub fn solve(spec: &BrazilNutSpec) -> Result<BrazilNut, Refusals> {
     spec.validate()?;
     let shake = Shake::new(&spec.shake, spec.gravity).map_err(|e| vec![("gamma", e)])?;
-    Ok(with_bed_law!(spec.bed_equation, law => Column::new(spec, &shake, law).rise()))
+    with_bed_law!(spec.bed_equation, law => Column::new(spec, &shake, law).rise())
 }
 
 /// How the intruder moves through the bed.
@@ -107,6 +107,12 @@ impl<'a, L: BedLaw> Column<'a, L> {
         self.spec.alpha * grip / (self.spec.intruder_density * self.volume)
     }
 
+    /// What friction can hold, m/s²; a little more than it, so that an intruder
+    /// that no force moves through the bed is not thrown about by rounding.
+    fn grip(&self, y: &State) -> f64 {
+        self.friction(y) + 1e-9 * self.shake.gravity
+    }
+
     fn slope(&self, t: f64, y: &State, ride: Ride) -> State {
         let weight = self.shake.weight(t);
         let bed = self.bed(y[1], weight);
@@ -123,7 +129,7 @@ impl<'a, L: BedLaw> Column<'a, L> {
         let weight = self.shake.weight(t);
         let pull = || self.intruder(y[1], weight);
         let end = match ride {
-            Ride::Held => self.friction(y) - (pull() - self.bed(y[1], weight)).abs(),
+            Ride::Held => self.grip(y) - (pull() - self.bed(y[1], weight)).abs(),
             Ride::Sliding(way) => way * (y[3] - y[1]),
             // The bed passes it at −u.
             Ride::Grounded => -(pull() + self.friction(y) * y[1].signum()),
@@ -136,11 +142,17 @@ impl<'a, L: BedLaw> Column<'a, L> {
     fn choose(&self, t: f64, y: &State) -> Ride {
         let weight = self.shake.weight(t);
         let pull = self.intruder(y[1], weight) - self.bed(y[1], weight);
-        if pull.abs() <= self.friction(y) { Ride::Held } else { Ride::Sliding(pull.signum()) }
+        if pull.abs() <= self.grip(y) { Ride::Held } else { Ride::Sliding(pull.signum()) }
     }
 
-    /// One flight of the bed from `takeoff`, the intruder's centre at `centre`: landing and the centre then.
-    fn fly(&self, takeoff: f64, centre: f64, mut seen: impl FnMut(&Step<4>)) -> Option<(f64, f64)> {
+    /// One flight of the bed from `takeoff`, the intruder's centre at `centre`: landing and the
+    /// centre then; `None` if the bed does not land within a hundred cycles.
+    fn fly(
+        &self,
+        takeoff: f64,
+        centre: f64,
+        mut seen: impl FnMut(&Step<4>),
+    ) -> Result<Option<(f64, f64)>, Refusals> {
         let speed = self.shake.gravity * self.shake.period / TAU;
         let length = speed * self.shake.period / TAU;
         let accuracy = Accuracy {
@@ -162,10 +174,16 @@ impl<'a, L: BedLaw> Column<'a, L> {
                 &accuracy,
                 &mut seen,
             );
-            let Ending::Event { which, time, state } = outcome else { return None };
-            (t, y) = (time, state);
+            let which = match outcome {
+                Ending::Event { which, time, state } => {
+                    (t, y) = (time, state);
+                    which
+                }
+                Ending::Reached(_) => return Ok(None),
+                Ending::Stuck(t) => return Err(stalled(t)),
+            };
             match (which, ride) {
-                (0, _) => return Some((t, y[2].max(self.radius))),
+                (0, _) => return Ok(Some((t, y[2].max(self.radius)))),
                 (1, Ride::Held) => {
                     let weight = self.shake.weight(t);
                     ride = Ride::Sliding((self.intruder(y[1], weight) - self.bed(y[1], weight)).signum());
@@ -181,10 +199,10 @@ impl<'a, L: BedLaw> Column<'a, L> {
                 }
             }
         }
-        None
+        Err(stalled(t))
     }
 
-    fn rise(&self) -> BrazilNut {
+    fn rise(&self) -> Result<BrazilNut, Refusals> {
         let period = self.shake.period;
         let surface = self.spec.height - self.radius;
         let end = self.shake.ramp() + f64::from(self.spec.cycles) * period;
@@ -200,7 +218,11 @@ impl<'a, L: BedLaw> Column<'a, L> {
                     steps.push(*s);
                 }
             };
-            let Some((landing, then)) = self.fly(takeoff, centre, keep) else { break };
+            let Some((landing, then)) = self.fly(takeoff, centre, keep)? else { break };
+            if landing <= takeoff {
+                // Thrown by no more than rounding.
+                break;
+            }
             // Out of the bed it falls back onto the surface.
             centre = then.min(self.spec.height + self.radius);
             history.push(Rise { time: landing, gap: centre - self.radius });
@@ -219,14 +241,14 @@ impl<'a, L: BedLaw> Column<'a, L> {
             })
             .map(|(t, y)| [360.0 * (t / period - (steps[0].start / period).floor()), y[0], y[2]])
             .collect();
-        BrazilNut {
+        Ok(BrazilNut {
             spec: self.spec.clone(),
             period,
             gamma: self.shake.gamma(),
             history,
             emerged,
             first_flight,
-        }
+        })
     }
 }
 

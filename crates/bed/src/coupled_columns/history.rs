@@ -5,7 +5,7 @@ use super::columns::{Columns, Flying, State, speeds};
 use crate::bed_equation::BedLaw;
 use crate::ode::{Accuracy, Ending, Step, integrate};
 use crate::shake::Shake;
-use crate::system::Refusals;
+use crate::system::{Refusals, stalled};
 use crate::with_bed_law;
 use std::f64::consts::TAU;
 
@@ -59,20 +59,19 @@ pub struct CoupledColumns {
 /// Follows the columns.
 ///
 /// # Errors
-/// The refusals of [`CoupledColumnsSpec::validate`].
+/// The refusals of [`CoupledColumnsSpec::validate`], or an integration at a standstill.
 pub fn solve(spec: &CoupledColumnsSpec) -> Result<CoupledColumns, Refusals> {
     spec.validate()?;
     let shake = Shake::new(&spec.shake, spec.gravity).map_err(|e| vec![("gamma", e)])?;
     let (medium, drift) = (spec.medium(), spec.coupling * shake.gamma());
-    Ok(with_bed_law!(spec.bed_equation, law => {
+    with_bed_law!(spec.bed_equation, law => {
         let columns = Columns { spec, law, medium, drift };
         Run { columns, shake: &shake, time: 0.0, flying: [false; 2], landings: [None; 2] }.follow()
-    }))
+    })
 }
 
-/// Hold over gravity below which a resting bed leaves the floor, and gap over
-/// that of free flight below which a falling bed lands, when the other bed
-/// changes its state: rounding must not hide either.
+/// Hold over gravity below which a resting bed leaves the floor when the other
+/// bed does: equal beds leave together, whatever the rounding.
 const TOUCHING: f64 = 1e-9;
 
 struct Run<'a, L> {
@@ -84,7 +83,7 @@ struct Run<'a, L> {
 }
 
 impl<L: BedLaw> Run<'_, L> {
-    fn follow(mut self) -> CoupledColumns {
+    fn follow(mut self) -> Result<CoupledColumns, Refusals> {
         let spec = self.columns.spec;
         let period = self.shake.period;
         let mut y: State = [0.0; 6];
@@ -100,7 +99,7 @@ impl<L: BedLaw> Run<'_, L> {
                 if cycle == shown {
                     pieces.push((flying, *s));
                 }
-            });
+            })?;
             if cycle == shown {
                 first_cycle = self.samples(&pieces, cycle as f64 * period);
             }
@@ -110,7 +109,7 @@ impl<L: BedLaw> Run<'_, L> {
                 break;
             }
         }
-        CoupledColumns {
+        Ok(CoupledColumns {
             spec: spec.clone(),
             period,
             gamma: self.shake.gamma(),
@@ -118,11 +117,16 @@ impl<L: BedLaw> Run<'_, L> {
             emptied,
             landing_phases: self.landings,
             first_cycle,
-        }
+        })
     }
 
     /// Advances to `end`, or until a column is down to one grain (then true).
-    fn cycle(&mut self, y: &mut State, end: f64, mut seen: impl FnMut(Flying, &Step<6>)) -> bool {
+    fn cycle(
+        &mut self,
+        y: &mut State,
+        end: f64,
+        mut seen: impl FnMut(Flying, &Step<6>),
+    ) -> Result<bool, Refusals> {
         let spec = self.columns.spec;
         let speed = self.shake.gravity * self.shake.period / TAU;
         let length = speed * self.shake.period / TAU;
@@ -133,7 +137,8 @@ impl<L: BedLaw> Run<'_, L> {
             longest: 0.05 * self.shake.period,
         };
         self.launch(y, 0.0, None);
-        loop {
+        // Each flight costs two events; beds that rounding throws and drops at once must not go on for ever.
+        for _ in 0..1000 {
             let flying = self.flying;
             let outcome = integrate(
                 |t, y| self.slope(t, y, flying),
@@ -147,16 +152,13 @@ impl<L: BedLaw> Run<'_, L> {
             match outcome {
                 Ending::Reached(state) => {
                     (self.time, *y) = (end, state);
-                    return false;
+                    return Ok(false);
                 }
-                Ending::Stuck(t) => {
-                    self.time = t;
-                    return true;
-                }
+                Ending::Stuck(t) => return Err(stalled(t)),
                 Ending::Event { which, time, state } => {
                     (self.time, *y) = (time, state);
                     match which {
-                        2 => return true,
+                        2 => return Ok(true),
                         i if flying[i] => self.land(y, i),
                         i => {
                             self.flying[i] = true;
@@ -166,6 +168,7 @@ impl<L: BedLaw> Run<'_, L> {
                 }
             }
         }
+        Err(stalled(self.time))
     }
 
     fn slope(&self, t: f64, y: &State, flying: Flying) -> State {
@@ -192,17 +195,12 @@ impl<L: BedLaw> Run<'_, L> {
         lift.map(|l| if self.columns.spec.relaunch { -l } else { weight.max(-l) })
     }
 
-    /// Puts bed `i` on the floor, and the other one too if it is just as near and falling.
     fn land(&mut self, y: &mut State, i: usize) {
-        let near = TOUCHING * self.shake.gravity * (self.shake.period / TAU).powi(2);
-        let j = 1 - i;
-        let both = self.flying[j] && y[2 * j] <= near && y[2 * j + 1] < 0.0;
-        for bed in [Some(i), both.then_some(j)].into_iter().flatten() {
-            *y = self.columns.land(y, self.flying, bed);
-            self.flying[bed] = false;
-            if self.time >= self.shake.ramp() {
-                let _ = self.landings[bed].get_or_insert(360.0 * (self.time / self.shake.period).fract());
-            }
+        *y = self.columns.land(y, self.flying, i);
+        self.flying[i] = false;
+        if self.time >= self.shake.ramp() {
+            let phase = 360.0 * (self.time / self.shake.period).fract();
+            let _ = self.landings[i].get_or_insert(phase);
         }
         // What has just landed flies again only if it is really lifted.
         self.launch(y, TOUCHING, Some(i));

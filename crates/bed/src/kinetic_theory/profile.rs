@@ -153,21 +153,27 @@ impl<'a> Gas<'a> {
                 layer(xi, &s.at(xi))
             })
             .collect();
-        let densest = steps
-            .iter()
-            .flat_map(|s| {
-                (0..=16)
-                    .map(move |k| s.start + (s.end - s.start) * f64::from(k) / 16.0)
-                    .map(move |x| (x, s.at(x)))
-            })
-            .map(|(x, y)| layer(x, &y))
-            .fold(
-                Layer::default(),
-                |best, l| if l.solids_fraction > best.solids_fraction { l } else { best },
-            );
+        let (xi, y) = self.densest(&steps);
+        let densest = layer(xi, &y);
         let in_cap = |s: &&Step<3>| self.solids(s.end, s.at(s.end)[0]) >= self.spec.densest;
         let capped = steps.iter().filter(in_cap).fold(0.0, |sum, s| sum + (s.end - s.start)) / m;
         KineticTheory { spec: self.spec.clone(), layers, top: layer(start, &[top, q, 0.0]), densest, capped }
+    }
+
+    /// Where ν is largest: ξ/θ is, hence where θ − ξ dθ/dξ falls through zero; else at the floor.
+    fn densest(&self, steps: &[Step<3>]) -> (f64, [f64; 3]) {
+        for s in steps {
+            let rise = |xi: f64| {
+                let y = s.at(xi);
+                y[0] - xi * self.slopes(xi, y[0], y[1])[0]
+            };
+            if rise(s.end) < 0.0 {
+                let xi = fall_between(rise, s.start, rise(s.start).max(0.0), s.end, rise(s.end));
+                return (xi, s.at(xi));
+            }
+        }
+        let last = steps[steps.len() - 1];
+        (last.end, last.at(last.end))
     }
 
     /// Back to SI.

@@ -63,6 +63,16 @@ fn has_the_shapes_that_lan_describes() {
 }
 
 #[test]
+fn no_layer_is_denser_than_the_densest() {
+    for (m_t, v_b) in [(1.0, 2.0), (2.5, 2.0), (5.0, 5.0)] {
+        let k = solve(&lan(m_t, v_b)).unwrap();
+        let most = k.layers.iter().map(|l| l.solids_fraction).fold(0.0, f64::max);
+        // Four hundred layers lie within a thousandth of it.
+        assert!(most <= k.densest.solids_fraction && most > 0.999 * k.densest.solids_fraction);
+    }
+}
+
+#[test]
 fn mass_and_energy_add_up() {
     let k = solve(&lan(5.0, 2.0)).unwrap();
     let d = k.spec.diameter;
@@ -121,6 +131,7 @@ fn does_not_depend_on_the_tolerance() {
     near(coarse.floor().w, fine.floor().w, 1e-6);
     near(coarse.top.w, fine.top.w, 1e-6);
     near(coarse.densest.solids_fraction, fine.densest.solids_fraction, 1e-6);
+    near(coarse.densest.height, fine.densest.height, 1e-6);
 }
 
 /// Where the theory needs its cap, the result hangs on it: W at the floor by a quarter.

@@ -4,7 +4,7 @@ use super::PlugSpec;
 use crate::bed_equation::{BedLaw, Medium};
 use crate::ode::{Accuracy, Ending, Step, integrate};
 use crate::shake::{Shake, minimum};
-use crate::system::Refusals;
+use crate::system::{Refusals, stalled};
 use crate::with_bed_law;
 use std::f64::consts::TAU;
 
@@ -86,11 +86,11 @@ pub struct Plug {
 /// Throws the plug until its motion repeats itself.
 ///
 /// # Errors
-/// The refusals of [`PlugSpec::validate`].
+/// The refusals of [`PlugSpec::validate`], or an integration at a standstill.
 pub fn solve(spec: &PlugSpec) -> Result<Plug, Refusals> {
     spec.validate()?;
     let shake = Shake::new(&spec.shake, spec.gravity).map_err(|e| vec![("gamma", e)])?;
-    Ok(with_bed_law!(spec.bed_equation, law => settle(spec, &shake, &Bed::new(spec, law))))
+    with_bed_law!(spec.bed_equation, law => settle(spec, &shake, &Bed::new(spec, law)))
 }
 
 /// The constants of the equation of motion.
@@ -140,7 +140,13 @@ impl<L: BedLaw> Bed<L> {
     }
 
     /// One flight from rest on the floor at `takeoff`, at most to `limit`; `None` if it has not landed by then.
-    fn fly(&self, shake: &Shake, takeoff: f64, limit: f64, tolerance: f64) -> Option<Flight> {
+    fn fly(
+        &self,
+        shake: &Shake,
+        takeoff: f64,
+        limit: f64,
+        tolerance: f64,
+    ) -> Result<Option<Flight>, Refusals> {
         // Gap and speed of free flight over one period set the scales.
         let speed = shake.gravity * shake.period / TAU;
         let accuracy = Accuracy {
@@ -151,14 +157,15 @@ impl<L: BedLaw> Bed<L> {
         let slope = |t: f64, y: &[f64; 2]| [y[1], self.acceleration(y[1], shake.weight(t))];
         let mut steps = Vec::with_capacity(48);
         match integrate(slope, |_, y| [y[0]], takeoff, [0.0; 2], limit, &accuracy, |s| steps.push(*s)) {
-            Ending::Event { time, .. } => Some(Flight { takeoff, landing: time, steps }),
-            Ending::Reached(_) | Ending::Stuck(_) => None,
+            Ending::Event { time, .. } => Ok(Some(Flight { takeoff, landing: time, steps })),
+            Ending::Reached(_) => Ok(None),
+            Ending::Stuck(t) => Err(stalled(t)),
         }
     }
 }
 
 /// Follows flights until one starts at the phase of an earlier one.
-fn settle<L: BedLaw>(spec: &PlugSpec, shake: &Shake, bed: &Bed<L>) -> Plug {
+fn settle<L: BedLaw>(spec: &PlugSpec, shake: &Shake, bed: &Bed<L>) -> Result<Plug, Refusals> {
     let period = shake.period;
     let limit = shake.ramp() + f64::from(spec.cycles) * period;
     let mut flights: Vec<Flight> = vec![];
@@ -171,7 +178,12 @@ fn settle<L: BedLaw>(spec: &PlugSpec, shake: &Shake, bed: &Bed<L>) -> Plug {
         if found.is_some() {
             break;
         }
-        let Some(flight) = bed.fly(shake, takeoff, limit + 100.0 * period, spec.tolerance) else { break };
+        let Some(flight) = bed.fly(shake, takeoff, limit + 100.0 * period, spec.tolerance)? else { break };
+        if flight.landing <= flight.takeoff {
+            // Thrown by no more than rounding.
+            next = None;
+            break;
+        }
         next = shake.next_throw(flight.landing);
         flights.push(flight);
     }
@@ -199,7 +211,7 @@ fn settle<L: BedLaw>(spec: &PlugSpec, shake: &Shake, bed: &Bed<L>) -> Plug {
         origin,
     };
     plug.peaks = plug.find_peaks(shake, bed);
-    plug
+    Ok(plug)
 }
 
 /// The earlier flight that began at the phase of `takeoff`, and the cycles since.

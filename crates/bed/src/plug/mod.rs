@@ -107,6 +107,7 @@ pub const KEYS: &[Key] = &[
 
 impl PlugSpec {
     /// The plug of a case: its `[plug]` table first, then its common tables.
+    /// Without a fluid it flies freely.
     ///
     /// # Errors
     /// Every value that is missing or refused, with the reason.
@@ -138,12 +139,7 @@ impl PlugSpec {
                 r,
             ),
             fluid_density: system.fluid_density.unwrap_or(0.0),
-            viscosity: need(
-                system.viscosity,
-                "viscosity",
-                "the plug moves against a fluid: add a [fluid] table",
-                r,
-            ),
+            viscosity: system.viscosity.unwrap_or(0.0),
             bed_equation: table
                 .text_opt("bed_equation")
                 .and_then(BedEquation::from_name)
@@ -178,7 +174,6 @@ impl PlugSpec {
             (self.height, "height", "m"),
             (self.diameter, "diameter", "m"),
             (self.grain_density, "grain_density", "kg/m³"),
-            (self.viscosity, "viscosity", "Pa s"),
         ] {
             demand(positive(value), key, || format!("is {value} {unit}, must be greater than zero"), &mut r);
         }
@@ -192,6 +187,12 @@ impl PlugSpec {
             self.fluid_density >= 0.0 && self.fluid_density.is_finite(),
             "density",
             || format!("of the fluid is {} kg/m³, must be zero or greater", self.fluid_density),
+            &mut r,
+        );
+        demand(
+            self.viscosity >= 0.0 && self.viscosity.is_finite(),
+            "viscosity",
+            || format!("is {} Pa s, must be zero or greater", self.viscosity),
             &mut r,
         );
         demand(

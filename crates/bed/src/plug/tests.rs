@@ -28,7 +28,7 @@ fn bronze() -> PlugSpec {
 
 /// No fluid worth the name.
 fn vacuum(gamma: f64) -> PlugSpec {
-    PlugSpec { shake: shaken(gamma, 10.0), fluid_density: 0.0, viscosity: 1e-15, ..bronze() }
+    PlugSpec { shake: shaken(gamma, 10.0), fluid_density: 0.0, viscosity: 0.0, ..bronze() }
 }
 
 fn near(value: f64, expected: f64, tolerance: f64) {
@@ -110,8 +110,11 @@ fn is_never_thrown_up_to_gamma_one() {
         assert!(plug.samples().iter().all(|s| s.gap == 0.0 && s.pressure == 0.0));
         assert_eq!(plug.report().figures.len(), 3);
     }
-    let barely = solve(&PlugSpec { shake: shaken(1.001, 10.0), ..bronze() }).unwrap();
-    assert_eq!(barely.flights.len(), 1);
+    // From Γ − 1 = 1e-9 on a flight is found; below, rounding may hide it but nothing hangs.
+    for excess in [1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-6, 1e-3] {
+        let plug = solve(&PlugSpec { shake: shaken(1.0 + excess, 10.0), ..bronze() }).unwrap();
+        assert!(plug.flights.len() == 1 || excess < 1e-9, "{excess}");
+    }
 }
 
 /// Landing phase (rad) in vacuum from take-off at rest relative to the floor at phase `a`:
@@ -241,7 +244,7 @@ fn bad_input_is_refused_with_the_reason() {
     assert_eq!(keys(PlugSpec { porosity: f64::NAN, ..bronze() }), ["porosity"]);
     assert_eq!(keys(PlugSpec { fluid_density: 9000.0, ..bronze() }), ["density"]);
     assert_eq!(keys(PlugSpec { height: 0.1, cell_height: Some(0.09), ..bronze() }), ["height"]);
-    assert_eq!(keys(PlugSpec { diameter: -1.0, viscosity: 0.0, ..bronze() }), ["diameter", "viscosity"]);
+    assert_eq!(keys(PlugSpec { diameter: -1.0, viscosity: -1.0, ..bronze() }), ["diameter", "viscosity"]);
 }
 
 #[test]
@@ -258,6 +261,8 @@ fn a_case_leaves_out_what_its_grains_tell() {
     };
     let spec = PlugSpec::from_values(&Values::default(), &system, true).unwrap();
     near(spec.height, 5.8e-3 / 0.58, 1e-15);
+    let dry = System { viscosity: None, fluid_density: None, ..system.clone() };
+    assert_eq!(PlugSpec::from_values(&Values::default(), &dry, true).unwrap().viscosity, 0.0);
     let none = PlugSpec::from_values(&Values::default(), &System { solids_height: None, ..system }, true);
     assert_eq!(none.unwrap_err()[0].0, "height");
 }
