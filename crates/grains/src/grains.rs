@@ -44,6 +44,20 @@ impl Grains {
         self.position.is_empty()
     }
 
+    /// Makes room for `n` grains, those added without mass or motion.
+    pub fn resize(&mut self, n: usize) {
+        self.species.resize(n, 0);
+        self.material.resize(n, 0);
+        self.radius.resize(n, 0.0);
+        self.mass.resize(n, 0.0);
+        self.inertia.resize(n, 0.0);
+        self.position.resize(n, Vec3::ZERO);
+        self.velocity.resize(n, Vec3::ZERO);
+        self.orientation.resize(n, Quat::IDENTITY);
+        self.angular_velocity.resize(n, Vec3::ZERO);
+        self.image.resize(n, [0; 3]);
+    }
+
     /// Adds a grain at rest.
     pub fn push(
         &mut self,

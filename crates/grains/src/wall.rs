@@ -1,5 +1,9 @@
 //! Walls: bodies of infinite mass that move as prescribed.
 
+mod place;
+
+pub use place::{Near, Walls};
+
 use brazilnut_base::Vec3;
 use brazilnut_base::motion::Motion;
 use serde::{Deserialize, Serialize};
@@ -34,11 +38,14 @@ pub enum WallShape {
         /// Upper corner, m.
         high: Vec3,
     },
-    /// A horizontal plane covered with half spheres (Lan 2.6.3).
+    /// Spheres side by side with their centres in a plane (Lan 2.6.3); add the plane itself as a wall if
+    /// grains can pass between them.
     Bumps {
-        /// Height of the plane that the spheres' centres lie in, m.
-        height: f64,
-        /// Radius of the half spheres, m.
+        /// Axis perpendicular to the plane: 0, 1 or 2.
+        axis: usize,
+        /// Coordinate of the plane along that axis, m.
+        at: f64,
+        /// Radius of the spheres, m.
         radius: f64,
         /// Distance of neighbours, m (rounded to a whole number of periods per cell).
         spacing: f64,

@@ -47,21 +47,23 @@ impl<R: Real> Touch<R> {
         R::splat(1.0) / self.inverse_radius
     }
 
-    /// Fraction of this step's kick during which a force that sets in at full
-    /// strength acts: 1, but `1/2 + delta/(|d delta/dt| dt)` in the step that
-    /// meets or leaves the other body.
+    /// Weight of this step for a force that sets in at full strength: 1, but between 0 and 3/2 within two
+    /// steps of touching or parting.
     ///
-    /// A step sees a contact late by up to `dt`; without this a dashpot that
-    /// jumps at touch makes restitution scatter by `2 |ln e| / (steps per contact)`.
+    /// A step sees a contact late by up to `dt`; without this a dashpot, which jumps at touch, makes
+    /// restitution scatter by `2 |ln e| / (steps per contact)`. With q = delta/(|d(delta)/dt| dt) steps
+    /// since touch, the weights min(3q/2, max(1, 2 - q/2)) of a contact add up to its length, and the
+    /// force starts from zero.
     #[inline(always)]
     pub fn presence(&self) -> R {
         let travel = self.approach.abs() * self.dt;
-        let partial = self.overlap.lt(travel);
-        if partial.any() {
-            R::pick(partial, R::splat(0.5) + self.overlap / travel, R::splat(1.0))
-        } else {
-            R::splat(1.0)
+        if !self.overlap.lt(travel + travel).any() {
+            return R::splat(1.0);
         }
+        let q = self.overlap / travel;
+        let late = (R::splat(2.0) - R::splat(0.5) * q).max(R::splat(1.0));
+        // Two bodies at rest at zero overlap give 0/0, for which `min` and `max` return their argument.
+        (R::splat(1.5) * q).min(late)
     }
 }
 
@@ -153,6 +155,11 @@ pub trait Normal: Copy + Send + Sync + 'static {
     fn lanes<R: Real>(pick: impl Fn(fn(&Self) -> f64) -> R) -> Self::Lanes<R>;
     /// The force. `memory` holds `SLOTS` numbers, the same seen from either body.
     fn force<R: Real>(law: &Self::Lanes<R>, touch: &Touch<R>, memory: &mut [R]) -> NormalForce<R>;
+    /// Energy that the spring still stored in the step before the bodies parted, J.
+    #[inline(always)]
+    fn released<R: Real>(_law: &Self::Lanes<R>, _memory: &[R]) -> R {
+        R::zero()
+    }
 }
 
 /// A tangential law.
@@ -161,6 +168,8 @@ pub trait Tangential: Copy + Send + Sync + 'static {
     type Lanes<R: Real>: Copy;
     /// How many numbers the contact remembers.
     const SLOTS: usize;
+    /// False only for the absent law: surfaces are then not compared.
+    const ACTIVE: bool = true;
     /// Bit `k` set: slot `k` changes sign when the two bodies swap places (components of a vector).
     const ODD: u32;
     /// Derives the constants; says what is missing.

@@ -11,8 +11,8 @@ use brazilnut_base::random::stream;
 /// Growth per round over the final radius.
 const GROWTH: f64 = 0.02;
 
-/// Rounds before the cell counts as jammed.
-const ROUNDS: usize = 4000;
+/// Rounds after which the sum of overlaps must have fallen by a twentieth, or the cell counts as jammed.
+const PATIENCE: usize = 200;
 
 /// Pairs are pushed this much further apart than touching, over the radii's sum: then a round can end
 /// without any overlap, which pushing to exact contact would only approach.
@@ -66,7 +66,8 @@ impl Growing<'_> {
     fn run(&mut self) -> bool {
         let mean = self.target.iter().sum::<f64>() / self.target.len().max(1) as f64;
         let (mut pairs, mut listed) = (vec![], vec![]);
-        for _ in 0..ROUNDS {
+        let mut least = f64::INFINITY;
+        for round in 1.. {
             let mut full = true;
             for (r, &target) in self.radius.iter_mut().zip(&self.target) {
                 full &= *r >= target;
@@ -78,10 +79,16 @@ impl Growing<'_> {
                 pairs = self.pairs(SKIN * mean);
                 listed.clone_from(&self.position);
             }
-            let clear = self.push_apart(&pairs);
+            let overlap = self.push_apart(&pairs);
             // The list is complete only if nothing moved farther than its skin within the round.
-            if full && clear && !self.overlapping().contains(&true) {
+            if full && overlap == 0.0 && !self.overlapping().contains(&true) {
                 return true;
+            }
+            if full && round % PATIENCE == 0 {
+                if overlap > 0.95 * least {
+                    break;
+                }
+                least = overlap;
             }
         }
         false
@@ -108,9 +115,9 @@ impl Growing<'_> {
         pairs
     }
 
-    /// One round over the pairs in their order; true if none overlapped.
-    fn push_apart(&mut self, pairs: &[[u32; 2]]) -> bool {
-        let mut clear = true;
+    /// One round over the pairs in their order; the sum of the overlaps it met, m.
+    fn push_apart(&mut self, pairs: &[[u32; 2]]) -> f64 {
+        let mut overlap = 0.0;
         for &[a, b] in pairs {
             let (a, b) = (a as usize, b as usize);
             let share = match (self.bounds[a].is_some(), self.bounds[b].is_some()) {
@@ -124,7 +131,7 @@ impl Growing<'_> {
             if distance >= touch {
                 continue;
             }
-            clear = false;
+            overlap += touch - distance;
             // Two grains at one point part along any direction that the cell has.
             let away = if distance > 0.0 { d / distance } else { Vec3::X };
             let push = away * (touch * (1.0 + EXCESS) - distance);
@@ -132,9 +139,9 @@ impl Growing<'_> {
             self.shift(b, -push * (1.0 - share));
         }
         for k in 0..self.position.len() {
-            clear &= !self.leave_solids(k);
+            overlap += self.leave_solids(k);
         }
-        clear
+        overlap
     }
 
     /// Moves grain `k` as far as its bounds allow.
@@ -151,9 +158,9 @@ impl Growing<'_> {
         self.position[k] = x;
     }
 
-    /// Pushes grain `k` out of inner walls; true if it was in one.
-    fn leave_solids(&mut self, k: usize) -> bool {
-        let mut was_in = false;
+    /// Pushes grain `k` out of inner walls; how deep it was in, m.
+    fn leave_solids(&mut self, k: usize) -> f64 {
+        let mut depth = 0.0;
         for s in &self.filling.solids {
             let (x, r) = (self.position[k], self.radius[k]);
             let d = x - x.clamp(s.low, s.high);
@@ -161,7 +168,7 @@ impl Growing<'_> {
             if distance >= r || self.bounds[k].is_none() {
                 continue;
             }
-            was_in = true;
+            depth += r - distance;
             let push = if distance > 0.0 {
                 d / distance * (r * (1.0 + EXCESS) - distance)
             } else {
@@ -169,7 +176,7 @@ impl Growing<'_> {
             };
             self.shift(k, push);
         }
-        was_in
+        depth
     }
 
     /// Radii to start from: the distance to the nearest neighbour shared by target radius (Lan 2.2).

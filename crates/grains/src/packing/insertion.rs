@@ -11,6 +11,9 @@ use rand::{Rng, RngExt};
 /// fraction 0.35 one try in about 3000 succeeds.
 const TRIES: usize = 20_000;
 
+/// Tries per window of a raining column: a few suffice at its low solids fraction, and it may rise instead.
+const WINDOW_TRIES: usize = 100;
+
 /// Solids fraction of a raining column: below, it grows tall without need; above, insertion gets slow.
 const LOOSE: [f64; 2] = [0.15, 0.33];
 
@@ -21,7 +24,7 @@ pub(super) fn random(filling: &Filling) -> Result<Grains, PackingError> {
     order.sort_by(|&a, &b| draft.grains.radius[b].total_cmp(&draft.grains.radius[a]).then(a.cmp(&b)));
     for (done, &k) in order.iter().enumerate() {
         let bounds = draft.bounds(k)?;
-        let Some(x) = try_inside(&draft, k, &bounds) else {
+        let Some(x) = try_inside(&draft, k, &bounds, TRIES) else {
             return Err(draft.does_not_fit(
                 "random",
                 &order[done..],
@@ -50,11 +53,11 @@ pub(super) fn rain(filling: &Filling, speed: f64, mixed: bool) -> Result<Grains,
             let mut window = full;
             window.low.z = bottom.min(full.high.z);
             window.high.z = (bottom + 4.0 * widest).min(full.high.z);
-            if let Some(x) = try_inside(&draft, k, &window) {
+            if let Some(x) = try_inside(&draft, k, &window, WINDOW_TRIES) {
                 break Some(x);
             }
             if window.high.z >= full.high.z {
-                break try_inside(&draft, k, &full);
+                break try_inside(&draft, k, &full, TRIES);
             }
             bottom += widest;
         };
@@ -73,9 +76,9 @@ pub(super) fn rain(filling: &Filling, speed: f64, mixed: bool) -> Result<Grains,
 }
 
 /// A free place for grain `k` inside `bounds`, if one is found.
-fn try_inside(draft: &Draft<'_>, k: usize, bounds: &Region) -> Option<Vec3> {
+fn try_inside(draft: &Draft<'_>, k: usize, bounds: &Region, tries: usize) -> Option<Vec3> {
     let mut random = stream(draft.filling.seed, "placement", k as u64);
-    (0..TRIES)
+    (0..tries)
         .map(|_| point(&mut random, draft.filling, bounds))
         .find(|&x| draft.is_free(x, draft.grains.radius[k]))
 }

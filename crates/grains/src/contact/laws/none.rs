@@ -12,6 +12,7 @@ pub struct Frictionless;
 
 impl Tangential for Frictionless {
     type Lanes<R: Real> = ();
+    const ACTIVE: bool = false;
     const SLOTS: usize = 0;
     const ODD: u32 = 0;
 

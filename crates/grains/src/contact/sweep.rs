@@ -1,0 +1,213 @@
+//! The only loop over contacts of pairs, generic in the law and the lane type.
+
+use super::law::{MAX_SLOTS, Touch};
+use super::pair::{Law, energy};
+use super::real::{Mask, Real, V3};
+use crate::lanes::{Adds, Wide};
+use crate::packed::{Couple, Force, INDEX, INDEX_BITS, Row, Spin, image_of};
+use crate::state::BATCH;
+
+/// One list of pairs to evaluate.
+pub struct PairJob<'a> {
+    /// All rows.
+    pub rows: &'a [Row],
+    /// All spins.
+    pub spins: &'a [Spin],
+    /// First bodies, whole batches.
+    pub i: &'a [u32],
+    /// Second bodies with image.
+    pub j: &'a [u32],
+    /// Pair class, empty if there is only one.
+    pub class: &'a [u8],
+    /// Number of real pairs.
+    pub len: usize,
+    /// Contact memory.
+    pub memory: &'a mut [f64],
+    /// Where forces are added.
+    pub forces: &'a mut [Force],
+    /// Where rolling couples are added, empty unless a law rolls.
+    pub couples: &'a mut [Couple],
+    /// Rows that belong to the first entry of `forces`, for first and second bodies.
+    pub base: (usize, usize),
+    /// Who gets the force.
+    pub adds: Adds,
+    /// Edge lengths of the cell, m.
+    pub size: [f64; 3],
+    /// Length of the step, s.
+    pub dt: f64,
+}
+
+/// What a sweep counts, lane by lane so that every lane type sums in the same order.
+#[derive(Clone, Debug, Default)]
+#[repr(C, align(64))]
+pub struct Tally {
+    /// Energies by kind, J.
+    pub energy: [[f64; BATCH]; energy::KINDS],
+    /// Work of walls, J.
+    pub wall_work: [f64; BATCH],
+    /// Largest overlap, m.
+    pub overlap: [f64; BATCH],
+    /// Touching contacts.
+    pub contacts: u64,
+}
+
+impl Tally {
+    /// Sum of kind `k`, J.
+    #[must_use]
+    pub fn total(&self, k: usize) -> f64 {
+        self.energy[k].iter().sum()
+    }
+}
+
+/// Adds `x` to the lanes of `sums` that batch place `at` stands for.
+#[inline(always)]
+pub(super) fn tally<R: Wide>(sums: &mut [f64; BATCH], at: usize, x: R) {
+    let place = &mut sums[at % BATCH..];
+    (R::load(place) + x).store(place);
+}
+
+/// Reads the memory of the contacts from `p` on.
+#[inline(always)]
+pub(super) fn recall<R: Wide>(memory: &[f64], p: usize, slots: usize) -> [R; MAX_SLOTS] {
+    let mut m = [R::zero(); MAX_SLOTS];
+    for s in 0..slots {
+        m[s] = R::load(&memory[crate::state::memory_place(p, s, slots)..]);
+    }
+    m
+}
+
+/// Writes it back.
+#[inline(always)]
+pub(super) fn remember<R: Wide>(m: &[R; MAX_SLOTS], memory: &mut [f64], p: usize, slots: usize) {
+    for s in 0..slots {
+        m[s].store(&mut memory[crate::state::memory_place(p, s, slots)..]);
+    }
+}
+
+/// Zero where nothing touches; what the springs still held goes into the tally.
+#[inline(always)]
+pub(super) fn forget<L: Law, R: Wide>(
+    law: &L::Lanes<R>,
+    old: &[R; MAX_SLOTS],
+    new: &mut [R; MAX_SLOTS],
+    touching: R::Mask,
+    counted: &mut Tally,
+    p: usize,
+) {
+    for s in 0..L::SLOTS {
+        new[s] = new[s].keep(touching);
+    }
+    tally(&mut counted.energy[energy::LATCHED], p, L::released(law, old).keep(!touching));
+}
+
+/// Evaluates every pair of `job` and adds its forces.
+#[inline(always)]
+pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<'_>, counted: &mut Tally) {
+    let uniform = L::lanes::<R>(table, |_| 0);
+    let mut indices = [0u32; BATCH];
+    let mut p = 0;
+    while p < job.len {
+        let q = p + R::WIDTH;
+        let (i, coded) = (&job.i[p..q], &job.j[p..q]);
+        let law = if job.class.is_empty() {
+            uniform
+        } else {
+            let class = &job.class[p..q];
+            L::lanes::<R>(table, |k| usize::from(class[k]))
+        };
+        let mut images = 0;
+        for k in 0..R::WIDTH {
+            images |= coded[k];
+            indices[k] = coded[k] & INDEX;
+        }
+        let j = &indices[..R::WIDTH];
+
+        let row = R::relative(job.rows, i, j);
+        let mut d = V3::new(row[0], row[1], row[2]);
+        if images >> INDEX_BITS != 0 {
+            d = d - across::<R>(coded, job.size);
+        }
+        let reach = row[3];
+        let square = d.dot(d);
+        let touching = square.lt(reach * reach);
+        let bits = touching.bits();
+        if bits == 0 {
+            if L::SLOTS > 0 {
+                let old = recall::<R>(job.memory, p, L::SLOTS);
+                let mut new = old;
+                forget::<L, R>(&law, &old, &mut new, touching, counted, p);
+                remember(&new, job.memory, p, L::SLOTS);
+            }
+            p = q;
+            continue;
+        }
+
+        let distance = square.sqrt();
+        let n = d * (R::splat(1.0) / distance);
+        let v = V3::new(row[4], row[5], row[6]);
+        let closing = v.dot(n);
+        let lever = distance / reach;
+        let slip = if SPINS {
+            let s = R::spin_sum(job.spins, i, j);
+            v - n * closing - V3::new(s[0], s[1], s[2]).cross(n) * lever
+        } else {
+            v - n * closing
+        };
+        let roll = if SPINS && L::ROLLS {
+            let w = R::spin_difference(job.spins, i, j);
+            V3::new(w[0], w[1], w[2])
+        } else {
+            V3::zero()
+        };
+        let inverse_radius =
+            if SPINS { R::spin_sum(job.spins, i, j)[3] } else { inverse_radii::<R>(job.spins, i, j) };
+        let touch = Touch {
+            overlap: (reach - distance).max(R::zero()),
+            normal: n,
+            approach: -closing,
+            slip,
+            roll,
+            inverse_mass: row[7],
+            inverse_radius,
+            dt: R::splat(job.dt),
+        };
+
+        let old = recall::<R>(job.memory, p, L::SLOTS);
+        let mut new = old;
+        let answer = L::act(&law, &touch, &mut new);
+        if L::SLOTS > 0 {
+            forget::<L, R>(&law, &old, &mut new, touching, counted, p);
+            remember(&new, job.memory, p, L::SLOTS);
+        }
+        for k in 0..energy::KINDS {
+            tally(&mut counted.energy[k], p, answer.energy[k].keep(touching));
+        }
+        let largest = &mut counted.overlap[p % BATCH..];
+        R::load(largest).max(touch.overlap).store(largest);
+        counted.contacts += u64::from(bits.count_ones());
+
+        let f = answer.force.keep(touching);
+        let t = if SPINS { (n.cross(answer.tangential) * lever).keep(touching) } else { V3::zero() };
+        let count = R::WIDTH.min(job.len - p);
+        R::scatter::<SPINS>(&[f.x, f.y, f.z, t.x, t.y, t.z], job.forces, job.base, i, j, count, job.adds);
+        if SPINS && L::ROLLS {
+            let c = answer.couple.keep(touching);
+            R::scatter_couple(&[c.x, c.y, c.z], job.couples, job.base, i, j, count, job.adds);
+        }
+        p = q;
+    }
+}
+
+/// Shift of the second bodies to the image that is meant, m.
+#[inline(always)]
+fn across<R: Real>(coded: &[u32], size: [f64; 3]) -> V3<R> {
+    let shift =
+        |axis: usize| R::from_lanes(|k| f64::from(image_of(coded[k] >> INDEX_BITS)[axis]) * size[axis]);
+    V3::new(shift(0), shift(1), shift(2))
+}
+
+/// 1/r1 + 1/r2 where spins are not otherwise needed.
+#[inline(always)]
+fn inverse_radii<R: Wide>(spins: &[Spin], i: &[u32], j: &[u32]) -> R {
+    R::from_lanes(|k| spins[i[k] as usize].0[3] + spins[j[k] as usize].0[3])
+}

@@ -1,0 +1,195 @@
+//! What happens to one block of grains in a step.
+
+use super::work::Work;
+use crate::contact::ContactSweep;
+use crate::contact::sweep::PairJob;
+use crate::contact::wall_sweep::WallJob;
+use crate::field::Field;
+use crate::lanes::Adds;
+use crate::motion::{self, Movers, Pace, Scheme};
+use crate::packed::{Half, Rest, Row, Spin, Tag};
+use crate::state::{DemState, Lists, Pairs};
+use crate::wall::Walls;
+
+/// What all blocks share in a step.
+pub struct Block<'a, F> {
+    /// All rows at the start of the step.
+    pub rows: &'a [Row],
+    /// All spins.
+    pub spins: &'a [Spin],
+    /// Who they are.
+    pub tags: &'a [Tag],
+    /// Rows from here on are big bodies.
+    pub small: usize,
+    /// The contact law.
+    pub law: &'a dyn ContactSweep,
+    /// The walls at the start of the step.
+    pub walls: &'a Walls,
+    /// Edge lengths of the cell, m.
+    pub size: [f64; 3],
+    /// The step.
+    pub pace: &'a Pace,
+    /// What acts from outside.
+    pub field: &'a F,
+}
+
+/// What a block alone writes.
+pub struct Own<'a> {
+    /// Rows at the end of the step.
+    pub rows: &'a mut [Row],
+    /// Spins at the end of the step.
+    pub spins: &'a mut [Spin],
+    /// Half-step velocities.
+    pub halves: &'a mut [Half],
+    /// Orientations.
+    pub rest: &'a mut [Rest],
+    /// Higher derivatives, maybe none.
+    pub higher: &'a mut [[f64; 12]],
+}
+
+impl<'a> Own<'a> {
+    /// The first `at` grains, and the others.
+    pub fn split(self, at: usize) -> (Self, Self) {
+        let (rows, rows_2) = self.rows.split_at_mut(at);
+        let (spins, spins_2) = self.spins.split_at_mut(at);
+        let (halves, halves_2) = self.halves.split_at_mut(at);
+        let (rest, rest_2) = self.rest.split_at_mut(at);
+        let (higher, higher_2) = self.higher.split_at_mut(at.min(self.higher.len()));
+        (
+            Self { rows, spins, halves, rest, higher },
+            Self { rows: rows_2, spins: spins_2, halves: halves_2, rest: rest_2, higher: higher_2 },
+        )
+    }
+}
+
+impl<F: Field> Block<'_, F> {
+    /// Runs the blocks of `lists`, in halves on two threads if `parallel`.
+    pub fn each<S: Scheme>(&self, lists: &mut [Lists], work: &mut [Work], own: Own<'_>, parallel: bool) {
+        match lists {
+            [] => {}
+            [only] => {
+                self.clear(only, &mut work[0]);
+                self.contacts(only, &mut work[0]);
+                self.motion::<S>(only, &mut work[0], own);
+            }
+            _ => {
+                let middle = lists.len() / 2;
+                let at = lists[middle].start - lists[0].start;
+                let (lists, lists_2) = lists.split_at_mut(middle);
+                let (work, work_2) = work.split_at_mut(middle);
+                let (own, own_2) = own.split(at);
+                if parallel {
+                    rayon::join(
+                        || self.each::<S>(lists, work, own, true),
+                        || self.each::<S>(lists_2, work_2, own_2, true),
+                    );
+                } else {
+                    self.each::<S>(lists, work, own, false);
+                    self.each::<S>(lists_2, work_2, own_2, false);
+                }
+            }
+        }
+    }
+
+    /// Runs the block of the big bodies after the others have left their forces in `small`.
+    pub fn big<S: Scheme>(&self, lists: &mut Lists, work: &mut Work, small: &[Work], own: Own<'_>) {
+        self.clear(lists, work);
+        let big = lists.end - lists.start;
+        for other in small {
+            let from = other.forces.len() - big;
+            for (sum, f) in work.forces.iter_mut().zip(&other.forces[from..]) {
+                for k in 0..8 {
+                    sum.0[k] += f.0[k];
+                }
+            }
+            let from = other.couples.len().saturating_sub(big);
+            for (sum, c) in work.couples.iter_mut().zip(&other.couples[from..]) {
+                for k in 0..4 {
+                    sum.0[k] += c.0[k];
+                }
+            }
+        }
+        self.contacts(lists, work);
+        self.motion::<S>(lists, work, own);
+    }
+
+    fn clear(&self, lists: &Lists, work: &mut Work) {
+        let own = lists.end - lists.start;
+        let big = if lists.start < self.small { self.tags.len() - self.small } else { 0 };
+        work.clear(own + big, self.walls.len(), self.law.rolls());
+    }
+
+    /// All contacts of the block.
+    fn contacts(&self, lists: &mut Lists, work: &mut Work) {
+        let own = (lists.start, lists.start);
+        // The big bodies' forces lie behind those of the block's own rows.
+        let with_big = (lists.start, self.small.wrapping_sub(lists.end - lists.start));
+        self.pairs(&mut lists.inside, work, own, Adds::Both);
+        self.pairs(&mut lists.first, work, own, Adds::First);
+        self.pairs(&mut lists.second, work, own, Adds::Second);
+        self.pairs(&mut lists.big, work, with_big, Adds::Both);
+        self.law.walls(
+            WallJob {
+                rows: self.rows,
+                spins: self.spins,
+                touching: &lists.walls.inner,
+                class: &lists.walls.class,
+                memory: &mut lists.walls.memory,
+                forces: &mut work.forces,
+                couples: &mut work.couples,
+                base: lists.start,
+                walls: self.walls,
+                loads: &mut work.loads,
+                dt: self.pace.tick.dt,
+            },
+            &mut work.tally,
+        );
+    }
+
+    fn pairs(&self, pairs: &mut Pairs, work: &mut Work, base: (usize, usize), adds: Adds) {
+        let counted = if adds == Adds::Second { &mut work.discard } else { &mut work.tally };
+        self.law.pairs(
+            PairJob {
+                rows: self.rows,
+                spins: self.spins,
+                i: &pairs.i,
+                j: &pairs.j,
+                class: &pairs.class,
+                len: pairs.len,
+                memory: &mut pairs.memory,
+                forces: &mut work.forces,
+                couples: &mut work.couples,
+                base,
+                adds,
+                size: self.size,
+                dt: self.pace.tick.dt,
+            },
+            counted,
+        );
+    }
+
+    fn motion<S: Scheme>(&self, lists: &Lists, work: &mut Work, own: Own<'_>) {
+        let rows = lists.start..lists.end;
+        let mut movers = Movers {
+            rows: &self.rows[rows.clone()],
+            next_rows: own.rows,
+            spins: &self.spins[rows.clone()],
+            next_spins: own.spins,
+            halves: own.halves,
+            higher: own.higher,
+            rest: own.rest,
+            tags: &self.tags[rows],
+            forces: &work.forces,
+            couples: &work.couples,
+        };
+        work.passed = motion::advance::<S, F>(&mut movers, self.pace, self.field);
+    }
+}
+
+impl DemState {
+    /// Load on each wall in the last step.
+    #[must_use]
+    pub fn wall_loads(&self) -> &[crate::wall::WallLoad] {
+        &self.loads
+    }
+}

@@ -1,0 +1,137 @@
+//! When lists are made anew.
+
+use super::{Dem, Scratch};
+use crate::lanes::Lanes8;
+use crate::neighbors::inner::{Memory, Prune};
+use crate::neighbors::outer::Scene;
+use crate::state::{DemState, Drift, Lists};
+use crate::wall::Walls;
+use brazilnut_base::Vec3;
+use rayon::prelude::*;
+
+/// A skin is used up a little early, so that rounding in the sums of displacements cannot matter.
+const MARGIN: f64 = 1.0 - 1e-9;
+
+impl Dem {
+    /// Makes the lists anew if any body may have moved further than a skin since.
+    pub(super) fn refresh_lists(&mut self, state: &mut DemState) {
+        let d = &state.drift;
+        let [outer, inner] = &state.wall_marks;
+        let skins = state.skins;
+        if exceeds(d.low, d.high, outer, &self.walls, skins.outer) {
+            self.rebuild(state);
+        } else if exceeds(d.inner_low, d.inner_high, inner, &self.walls, skins.inner) {
+            self.prune(state, false);
+        }
+    }
+
+    /// Outer lists from the present positions; sorts and wraps the grains.
+    pub(super) fn rebuild(&mut self, state: &mut DemState) {
+        self.collect(state);
+        wrap(state, &self.spec.cell);
+        let all_pairs = state.small < self.spec.search.all_pairs_below;
+        let scratch = &mut self.scratch;
+        if !all_pairs {
+            let reach = 2.0 * state.radii[1] + state.skins.outer;
+            scratch.grid.lay(&self.spec.cell, state.extent, reach, state.small);
+            let Scratch { order, grid, rows, spins, .. } = scratch;
+            order.sort(state, grid, rows, spins);
+        }
+        let parallel = self.parallel(state);
+        let scratch = &mut self.scratch;
+        let scene =
+            Scene { cell: &self.spec.cell, rows: &state.rows, small: state.small, skin: state.skins.outer };
+        let find = |lists: &mut Lists| {
+            if all_pairs || lists.start >= state.small {
+                lists.find_all(&scene);
+            } else {
+                lists.find(&scene, &scratch.grid);
+            }
+            lists.walls.find(&state.rows, (lists.start, lists.end), &self.walls, state.skins.outer);
+        };
+        if parallel {
+            state.blocks.par_iter_mut().for_each(find);
+        } else {
+            state.blocks.iter_mut().for_each(find);
+        }
+        state.drift = Drift::default();
+        mark(&mut state.wall_marks[0], &self.walls);
+        state.counts.builds += 1;
+        self.prune(state, true);
+    }
+
+    /// Inner lists from the outer ones; `handed` if the outer ones are new.
+    fn prune(&mut self, state: &mut DemState, handed: bool) {
+        let parallel = self.parallel(state);
+        self.scratch.fit_work(&state.blocks);
+        let Scratch { work, handover, .. } = &mut self.scratch;
+        let prune = Prune {
+            cell: &self.spec.cell,
+            rows: &state.rows,
+            tags: &state.tags,
+            rest: &state.rest,
+            skin: state.skins.inner,
+            slots: self.law.slots(),
+            materials: self.spec.materials.len(),
+            memory: if handed { Memory::Handed(handover) } else { Memory::Kept },
+        };
+        let one = |(lists, work): (&mut Lists, &mut super::work::Work)| {
+            for pairs in [&mut lists.inside, &mut lists.first, &mut lists.second, &mut lists.big] {
+                prune.run::<Lanes8>(pairs, &mut work.spare);
+            }
+            prune.walls(&mut lists.walls, &self.walls, &mut work.spare);
+        };
+        if parallel {
+            state.blocks.par_iter_mut().zip(work.par_iter_mut()).for_each(one);
+        } else {
+            state.blocks.iter_mut().zip(work.iter_mut()).for_each(one);
+        }
+        (state.drift.inner_low, state.drift.inner_high) = (Vec3::ZERO, Vec3::ZERO);
+        mark(&mut state.wall_marks[1], &self.walls);
+        state.counts.prunes += 1;
+    }
+
+    /// Takes up the memory of all contacts.
+    fn collect(&mut self, state: &DemState) {
+        let slots = self.law.slots();
+        let handover = &mut self.scratch.handover;
+        handover.clear(slots, self.law.odd());
+        if slots > 0 {
+            for lists in &state.blocks {
+                for pairs in [&lists.inside, &lists.first, &lists.big] {
+                    handover.take(pairs, &state.tags, &state.rest);
+                }
+                handover.take_walls(&lists.walls, &state.tags);
+            }
+        }
+        handover.index(state.tags.len());
+    }
+}
+
+/// Whether two grains, or a grain and a wall, may have come nearer by more than `skin` (m), if every
+/// grain's displacement lies between `low` and `high` and the walls were at `marks`.
+fn exceeds(low: Vec3, high: Vec3, marks: &[Vec3], walls: &Walls, skin: f64) -> bool {
+    let skin = skin * MARGIN;
+    if (high - low).length() >= skin {
+        return true;
+    }
+    marks.iter().enumerate().any(|(k, &mark)| {
+        let wall = walls.displacement(k) - mark;
+        (high - wall).abs().max((low - wall).abs()).length() >= skin
+    })
+}
+
+fn mark(marks: &mut Vec<Vec3>, walls: &Walls) {
+    marks.clear();
+    marks.extend((0..walls.len()).map(|k| walls.displacement(k)));
+}
+
+fn wrap(state: &mut DemState, cell: &brazilnut_base::Cell) {
+    for (row, rest) in state.rows.iter_mut().zip(&mut state.rest) {
+        let (r, crossed) = cell.wrap(row.position());
+        row.0[..3].copy_from_slice(&r.to_array());
+        for axis in 0..3 {
+            rest.image[axis] += crossed[axis];
+        }
+    }
+}

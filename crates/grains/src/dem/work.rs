@@ -1,0 +1,56 @@
+//! Work space of one block.
+
+use crate::contact::sweep::Tally;
+use crate::motion::Passed;
+use crate::neighbors::inner::Spare;
+use crate::packed::{Couple, Force};
+use crate::wall::WallLoad;
+
+/// What a block sums up in a step.
+pub struct Work {
+    /// Forces on the block's rows, then those of the block's grains on the big bodies.
+    pub forces: Vec<Force>,
+    /// Rolling couples, likewise, if any law rolls.
+    pub couples: Vec<Couple>,
+    /// Loads on walls.
+    pub loads: Vec<WallLoad>,
+    /// Sums over contacts counted here.
+    pub tally: Tally,
+    /// Sums over contacts counted elsewhere.
+    pub discard: Tally,
+    /// What the pass over the grains found.
+    pub passed: Passed,
+    /// Buffers of pruning.
+    pub spare: Spare,
+}
+
+impl Default for Work {
+    fn default() -> Self {
+        Self {
+            forces: vec![],
+            couples: vec![],
+            loads: vec![],
+            tally: Tally::default(),
+            discard: Tally::default(),
+            passed: Passed::nothing(),
+            spare: Spare::default(),
+        }
+    }
+}
+
+impl Work {
+    /// Zero forces for `bodies` rows and `walls` walls.
+    pub fn clear(&mut self, bodies: usize, walls: usize, rolls: bool) {
+        zero(&mut self.forces, bodies);
+        zero(&mut self.couples, if rolls { bodies } else { 0 });
+        zero(&mut self.loads, walls);
+        self.tally = Tally::default();
+        self.discard = Tally::default();
+        self.passed = Passed::nothing();
+    }
+}
+
+fn zero<T: Clone + Default>(v: &mut Vec<T>, len: usize) {
+    v.clear();
+    v.resize(len, T::default());
+}

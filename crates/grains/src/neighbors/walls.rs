@@ -1,0 +1,75 @@
+//! Candidate contacts with walls, on the same two levels as pairs.
+
+use super::inner::{Memory, Prune, Spare};
+use crate::packed::Row;
+use crate::state::{BATCH, WallPairs, memory_place};
+use crate::wall::Walls;
+
+impl WallPairs {
+    /// Finds the walls within `skin` (m) of rows `start..end`.
+    pub fn find(&mut self, rows: &[Row], (start, end): (usize, usize), walls: &Walls, skin: f64) {
+        self.outer.clear();
+        for row in start..end {
+            let g = &rows[row];
+            walls.candidates(g.position(), g.radius() + skin, |wall, feature| {
+                self.outer.push((row as u32, wall, feature));
+            });
+        }
+        self.outer.sort_unstable_by_key(|&(row, wall, feature)| (wall, row, feature));
+    }
+}
+
+impl Prune<'_> {
+    /// Makes the inner list of wall contacts anew.
+    pub fn walls(&self, list: &mut WallPairs, walls: &Walls, spare: &mut Spare) {
+        let old = if matches!(self.memory, Memory::Kept) { list.inner.len() } else { 0 };
+        spare.swap(&mut list.from, &mut list.memory);
+        list.inner.clear();
+        list.from.clear();
+        list.class.clear();
+        for (k, &(row, wall, feature)) in list.outer.iter().enumerate() {
+            let g = &self.rows[row as usize];
+            let near = walls.nearest(usize::from(wall), feature, g.position());
+            // A point that a neighbouring box covers is no candidate now, but may be one step later.
+            if near.distance <= g.radius() + self.skin || near.distance == f64::INFINITY {
+                list.inner.push((row, wall, feature));
+                list.from.push(k as u32);
+                if self.materials > 1 {
+                    let mine = usize::from(self.tags[row as usize].material);
+                    let class = mine * self.materials + usize::from(walls.material(usize::from(wall)));
+                    list.class.push(class as u8);
+                }
+            }
+        }
+        list.memory.clear();
+        if self.slots > 0 {
+            list.memory.resize(list.inner.len().next_multiple_of(BATCH) * self.slots, 0.0);
+            self.carry_walls(list, spare, old);
+        }
+    }
+
+    fn carry_walls(&self, list: &mut WallPairs, spare: &Spare, old: usize) {
+        let slots = self.slots;
+        let mut q = 0;
+        for p in 0..list.inner.len() {
+            match self.memory {
+                Memory::Kept => {
+                    while q < old && spare.from(q) < list.from[p] {
+                        q += 1;
+                    }
+                    if q < old && spare.from(q) == list.from[p] {
+                        for s in 0..slots {
+                            list.memory[memory_place(p, s, slots)] = spare.memory(memory_place(q, s, slots));
+                        }
+                    }
+                }
+                Memory::Handed(handover) => {
+                    let (row, wall, feature) = list.inner[p];
+                    handover.recall_wall(self.tags[row as usize].id, wall, feature, |s, x| {
+                        list.memory[memory_place(p, s, slots)] = x;
+                    });
+                }
+            }
+        }
+    }
+}
