@@ -140,3 +140,26 @@ fn the_report_has_its_parts() {
     assert_eq!((report.figures.len(), report.tables.len()), (2, 3));
     assert!(report.tables[0].1.rows.len() > 10);
 }
+
+#[test]
+fn a_case_has_to_give_the_fits() {
+    let system = System {
+        shake: shaken(3.5),
+        gravity: 9.81,
+        fluid_density: Some(1000.0),
+        viscosity: Some(1e-3),
+        grain_density: Some(2500.0),
+        grain_diameter: Some(2e-3),
+        bed_height: Some(26e-3),
+        intruder_density: Some(7750.0),
+        intruder_diameter: Some(7e-3),
+        ..System::default()
+    };
+    let missing = BrazilNutSpec::from_values(&Values::default(), &system).unwrap_err();
+    assert_eq!(missing.iter().map(|r| r.0).collect::<Vec<_>>(), ["alpha", "range"]);
+    let mut table = Values::default();
+    table.insert("alpha", brazilnut_base::values::Value::Number(9.83e-3), None);
+    table.insert("range", brazilnut_base::values::Value::Number(4e-3), None);
+    let spec = BrazilNutSpec::from_values(&table, &system).unwrap();
+    assert_eq!(BrazilNutSpec { cell_height: Some(43e-3), ..spec }, thesis(3.5, 9.83e-3, 4e-3));
+}
