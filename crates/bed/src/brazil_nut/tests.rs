@@ -21,7 +21,7 @@ fn thesis(gamma: f64, alpha: f64, range: f64) -> BrazilNutSpec {
         intruder_density: 7750.0,
         alpha,
         range,
-        drag_factor: 1.0 / 0.58,
+        drag_factor: 1.0 / (1.0 - 0.42),
         start: 0.0,
         cycles: 600,
         tolerance: 1e-10,
