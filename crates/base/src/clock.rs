@@ -33,6 +33,7 @@ impl Tick {
     /// Part `k` of this step cut into `n` equal parts.
     #[must_use]
     pub fn substep(&self, k: u64, n: u64) -> Self {
-        Self::at(self.index * n + k, self.dt / n as f64)
+        let dt = self.dt / n as f64;
+        Self { time: self.time + k as f64 * dt, dt, index: self.index * n + k }
     }
 }

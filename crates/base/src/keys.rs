@@ -42,6 +42,17 @@ pub enum Kind {
     Tables(&'static [Key]),
     /// Tables under names that the user chooses, as `[materials.glass]`.
     NamedTables(&'static [Key]),
+    /// An array of tables whose further keys depend on a menu name in the key `tag`.
+    Variants {
+        /// The key that names the variant.
+        tag: &'static str,
+        /// Keys that every variant has, the tag among them.
+        common: &'static [Key],
+        /// The names.
+        menu: fn() -> Vec<Entry>,
+        /// The further keys of a name.
+        keys: fn(&str) -> &'static [Key],
+    },
 }
 
 /// What holds if the key is left out.

@@ -1,0 +1,272 @@
+//! Does the whole make sense? One small check per concern; each adds what it finds.
+
+use crate::case::Case;
+use crate::issue::Issues;
+use brazilnut_base::values::Values;
+
+/// Whether a rung moves grains.
+#[must_use]
+pub fn has_grains(model: &str) -> bool {
+    matches!(
+        model,
+        "dry" | "simple-drag" | "navier-stokes" | "particle-template" | "fluid-springs" | "direct-forcing"
+    )
+}
+
+/// Whether a rung computes a flow on a grid.
+#[must_use]
+pub fn has_flow(model: &str) -> bool {
+    matches!(model, "fluid" | "navier-stokes" | "particle-template" | "fluid-springs" | "direct-forcing")
+}
+
+/// Whether a rung is an analytical one.
+#[must_use]
+pub fn is_analytical(model: &str) -> bool {
+    matches!(model, "kroll" | "modified-kroll" | "coupled-columns" | "brazil-nut-column" | "kinetic-theory")
+}
+
+/// All checks that need no assembly.
+pub fn check(case: &Case, issues: &mut Issues) {
+    let v = &case.values;
+    let Some(model) = v.text_opt("model") else { return };
+    shaking(v, issues);
+    tables(v, model, issues);
+    cell(v, issues);
+    grains(v, model, issues);
+    materials(v, model, issues);
+    time(v, model, issues);
+}
+
+/// Exactly one measure of how hard, and gravity where it is needed.
+fn shaking(v: &Values, issues: &mut Issues) {
+    let Some(s) = v.table_opt("shaking") else { return };
+    let ways = ["gamma", "displacement_amplitude", "peak_velocity"];
+    let given: Vec<&str> = ways.into_iter().filter(|w| s.has(w)).collect();
+    match given.as_slice() {
+        [] => issues.add(
+            s.span.clone(),
+            "`shaking` does not say how hard",
+            "one of `gamma`, `displacement_amplitude`, `peak_velocity` is needed",
+            "add `gamma = 2.0`",
+        ),
+        [one] => {
+            if *one == "gamma" && v.number_opt("gravity") == Some(0.0) {
+                issues.add(
+                    s.span(one),
+                    "`gamma` means nothing without gravity",
+                    "it is the peak acceleration over gravity",
+                    "give `displacement_amplitude` or `peak_velocity`",
+                );
+            }
+        }
+        [first, others @ ..] => {
+            for other in others {
+                issues.add(
+                    s.span(other),
+                    "the shaking is over-determined",
+                    format!("`{first}` says how hard already"),
+                    format!(
+                        "keep one of {}",
+                        given.iter().map(|w| format!("`{w}`")).collect::<Vec<_>>().join(", ")
+                    ),
+                );
+            }
+        }
+    }
+}
+
+/// The tables that a rung cannot do without.
+fn tables(v: &Values, model: &str, issues: &mut Issues) {
+    let mut need = |name: &str, why: &str| {
+        let missing = match v.get(name) {
+            None => true,
+            Some(brazilnut_base::values::Value::List(l)) => l.is_empty(),
+            Some(_) => false,
+        };
+        // A table that is there but broken has been reported already.
+        if missing && !issues.source.contains(name) {
+            let place = v.span("model");
+            issues.add(
+                place,
+                format!("`{name}` is missing"),
+                format!("the model \"{model}\" needs it {why}"),
+                format!("add a table `{name}`"),
+            );
+        }
+    };
+    if has_grains(model) || has_flow(model) {
+        need("cell", "to know the room");
+        need("time", "to know when to end");
+    }
+    if has_grains(model) {
+        need("grains", "to have something to move");
+    }
+    if has_flow(model)
+        || model == "simple-drag"
+        || matches!(model, "modified-kroll" | "kroll" | "coupled-columns" | "brazil-nut-column")
+    {
+        need("fluid", "for density and viscosity");
+    }
+    if is_analytical(model) && model != "kinetic-theory" {
+        need("shaking", "to throw the bed");
+    }
+}
+
+fn cell(v: &Values, issues: &mut Issues) {
+    let Some(c) = v.table_opt("cell") else { return };
+    if c.text_opt("x") == Some("flat") && c.text_opt("y") == Some("flat") {
+        issues.add(c.span("y"), "only one direction may be flat", "x is flat already", "");
+    }
+}
+
+fn grains(v: &Values, model: &str, issues: &mut Issues) {
+    let flat = v
+        .table_opt("cell")
+        .is_some_and(|c| c.text_opt("x") == Some("flat") || c.text_opt("y") == Some("flat"));
+    let mut names: Vec<&str> = vec![];
+    let mut shapes: Vec<&str> = vec![];
+    for g in v.tables("grains") {
+        let (Some(name), Some(material)) = (g.text_opt("name"), g.text_opt("material")) else { continue };
+        if names.contains(&name) {
+            issues.add(
+                g.span("name"),
+                format!("two species are called \"{name}\""),
+                "the second one",
+                "give it another name",
+            );
+        }
+        names.push(name);
+        let known = v.named("materials");
+        if !known.iter().any(|(n, _)| n == material) {
+            let hint = brazilnut_base::menu::nearest(material, known.iter().map(|(n, _)| n.as_str()));
+            issues.add(
+                g.span("material"),
+                format!("there is no material \"{material}\""),
+                "not under `materials`",
+                hint.map_or_else(
+                    || format!("add a table `[materials.{material}]`"),
+                    |h| format!("did you mean `{h}`?"),
+                ),
+            );
+        }
+        if has_grains(model) && !g.has("count") && !g.has("at") {
+            issues.add(
+                g.span.clone(),
+                format!("how many grains of \"{name}\"?"),
+                "needs `count`, or `at` for a single one",
+                "add `count = 100`",
+            );
+        }
+        if g.has("at") && g.integer_opt("count").is_some_and(|n| n != 1) {
+            issues.add(
+                g.span("count"),
+                "a grain with a place is one grain",
+                "`at` places a single grain",
+                "drop `count` or `at`",
+            );
+        }
+        let shape = g.text_opt("shape").unwrap_or("sphere");
+        if shape == "cylinder" && !flat {
+            issues.add(
+                g.span("shape"),
+                "cylinders need a two-dimensional cell",
+                "no direction of the cell is flat",
+                "add `y = \"flat\"` to `cell`",
+            );
+        }
+        if shapes.first().is_some_and(|s| *s != shape) {
+            issues.add(
+                g.span("shape"),
+                "spheres and cylinders do not mix",
+                "the first species has another shape",
+                "",
+            );
+        }
+        shapes.push(shape);
+        if let Some(d) = g.table_opt("diameter")
+            && let Err(e) = brazilnut_grains::packing::Sizes::read(d)
+        {
+            issues.add(
+                g.span("diameter"),
+                format!("the diameter of \"{name}\" makes no sense"),
+                e.cause(),
+                e.remedy(),
+            );
+        }
+    }
+    if has_grains(model)
+        && v.table_opt("start").is_some_and(|s| s.text_opt("placement") == Some("file") && !s.has("file"))
+    {
+        let start = v.table_opt("start").and_then(|s| s.span("placement"));
+        issues.add(
+            start,
+            "which file?",
+            "positions from a file need its name",
+            "add `file = \"start.csv\"` to `start`",
+        );
+    }
+}
+
+/// Materials that contact pairs and walls name must exist; `wall` always does.
+fn materials(v: &Values, model: &str, issues: &mut Issues) {
+    if !has_grains(model) {
+        return;
+    }
+    let walls = crate::parts::wall_materials(v);
+    let known = |n: &str| walls.iter().any(|w| w == n) || v.named("materials").iter().any(|(m, _)| m == n);
+    let Some(contact) = v.table_opt("contact") else { return };
+    for pair in contact.tables("pairs") {
+        let between: Vec<&str> = pair
+            .list("between")
+            .iter()
+            .filter_map(|x| match x {
+                brazilnut_base::values::Value::Text(s) => Some(s.as_str()),
+                _ => None,
+            })
+            .collect();
+        if between.len() != 2 {
+            issues.add(
+                pair.span("between"),
+                "a pair has two materials",
+                format!("this has {}", between.len()),
+                "write `between = [\"glass\", \"wall\"]`",
+            );
+        }
+        for name in between {
+            if !known(name) {
+                let names: Vec<String> =
+                    walls.iter().cloned().chain(v.named("materials").iter().map(|m| m.0.clone())).collect();
+                let hint = brazilnut_base::menu::nearest(name, names.iter().map(String::as_str));
+                issues.add(
+                    pair.span("between"),
+                    format!("there is no material \"{name}\""),
+                    "neither under `materials` nor of a wall",
+                    hint.map_or_else(String::new, |h| format!("did you mean `{h}`?")),
+                );
+            }
+        }
+    }
+}
+
+fn time(v: &Values, model: &str, issues: &mut Issues) {
+    use brazilnut_base::schedule::Every;
+    let Some(t) = v.table_opt("time") else { return };
+    if !has_grains(model) && !has_flow(model) {
+        return;
+    }
+    match t.every_opt("end") {
+        Some(Every::Cycles(_)) if v.table_opt("shaking").is_none() => issues.add(
+            t.span("end"),
+            "nothing shakes, so there are no cycles",
+            "`end` is in cycles",
+            "give a time, or add a table `shaking`",
+        ),
+        Some(Every::PerCycle(_) | Every::End) => issues.add(
+            t.span("end"),
+            "`end` is not an end",
+            "expected a time or a number of cycles",
+            "write `end = \"8 s\"` or `end = \"100 cycles\"`",
+        ),
+        _ => {}
+    }
+}

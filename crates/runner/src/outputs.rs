@@ -1,0 +1,200 @@
+//! Everything that grows while a run goes on: tables, frames, pictures.
+
+use crate::directory::Directory;
+use crate::pictures;
+use brazilnut_base::schedule::{Every, Schedule};
+use brazilnut_base::values::Values;
+use brazilnut_base::{Cell, Table, Tick};
+use brazilnut_grains::Grains;
+use brazilnut_sim::Plan;
+use brazilnut_store::{GrainFrame, Series, StoreError, TableFile, atomic, table, vtk};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// What a checkpoint must remember of the outputs.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Written {
+    /// Bytes in each table, by index of the observer; 0 for none.
+    pub tables: Vec<u64>,
+    /// Bytes in the LAMMPS dump.
+    pub dump: u64,
+    /// The step boundary that all this belongs to.
+    pub step: u64,
+}
+
+/// The open outputs of a run.
+pub struct Outputs {
+    directory: Directory,
+    tables: Vec<Option<TableFile>>,
+    grains: Series,
+    frames: Schedule,
+    pictures: Vec<u64>,
+    palette: pictures::Palette,
+    cell: Cell,
+    species_names: Vec<String>,
+}
+
+impl Outputs {
+    /// New outputs in an empty directory.
+    ///
+    /// # Errors
+    /// If something cannot be written.
+    pub fn create(directory: &Directory, plan: &Plan, output: &Values) -> Result<Self, StoreError> {
+        for folder in [directory.tables(), directory.grains(), directory.pictures()] {
+            atomic::make_folder(&folder)?;
+        }
+        let tables = plan.watches.iter().map(|w| {
+            let columns = w.columns();
+            if columns.is_empty() {
+                return Ok(None);
+            }
+            TableFile::create(&directory.tables().join(format!("{}.csv", w.name)), &columns).map(Some)
+        });
+        let tables = tables.collect::<Result<_, _>>()?;
+        let grains = Series::create(&directory.root, "grains", "vtp")?;
+        Ok(Self::assemble(directory, plan, output, tables, grains))
+    }
+
+    /// The outputs of an earlier part of the run, cut back to `written`.
+    ///
+    /// # Errors
+    /// If something cannot be read back or written.
+    pub fn resume(
+        directory: &Directory,
+        plan: &Plan,
+        output: &Values,
+        written: &Written,
+    ) -> Result<Self, StoreError> {
+        let tables = plan.watches.iter().zip(&written.tables).map(|(w, &length)| {
+            let columns = w.columns();
+            if columns.is_empty() {
+                return Ok(None);
+            }
+            TableFile::resume(&directory.tables().join(format!("{}.csv", w.name)), &columns, length).map(Some)
+        });
+        let tables = tables.collect::<Result<_, _>>()?;
+        let grains = Series::resume(&directory.root, "grains", "vtp", written.step)?;
+        Ok(Self::assemble(directory, plan, output, tables, grains))
+    }
+
+    fn assemble(
+        directory: &Directory,
+        plan: &Plan,
+        output: &Values,
+        tables: Vec<Option<TableFile>>,
+        grains: Series,
+    ) -> Self {
+        let clock = &plan.clock;
+        let every = output.every_opt("frames").unwrap_or(Every::End);
+        let frames = Schedule::new(every, 0.0, clock.dt, clock.steps_per_cycle, clock.end)
+            .unwrap_or(Schedule { period: u64::MAX, offset: clock.end });
+        let n = output.integer("pictures").max(0) as u64;
+        let pictures = match n {
+            0 => vec![],
+            1 => vec![clock.end],
+            _ => (0..n).map(|k| clock.end * k / (n - 1)).collect(),
+        };
+        Self {
+            directory: directory.clone(),
+            tables,
+            grains,
+            frames,
+            pictures,
+            palette: pictures::Palette::new(plan),
+            cell: plan.cell,
+            species_names: plan.species.iter().map(|s| s.name.clone()).collect(),
+        }
+    }
+
+    /// Appends a row to the table of observer `k`.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn row(&mut self, k: usize, values: &[f64]) -> Result<(), StoreError> {
+        self.tables[k].as_mut().map_or(Ok(()), |t| t.append(values))
+    }
+
+    /// Whether grains are wanted at this boundary.
+    #[must_use]
+    pub fn wants_grains(&self, tick: &Tick) -> bool {
+        tick.index == 0 || self.frames.is_due(tick.index) || self.pictures.contains(&tick.index)
+    }
+
+    /// Writes the frame and the picture that are due at this boundary. The
+    /// initial frame is always written.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    pub fn frame(&mut self, tick: &Tick, grains: &Grains, caption: &str) -> Result<(), StoreError> {
+        if tick.index == 0 {
+            self.palette.start(grains);
+        }
+        if tick.index == 0 || self.frames.is_due(tick.index) {
+            let id: Vec<u64> = (0..grains.len() as u64).collect();
+            let species: Vec<u64> = grains.species.iter().map(|&s| u64::from(s)).collect();
+            let frame = GrainFrame {
+                step: tick.index,
+                time: tick.time,
+                cell: &self.cell,
+                species_names: &self.species_names,
+                id: &id,
+                species: &species,
+                position: &grains.position,
+                velocity: &grains.velocity,
+                angular_velocity: &grains.angular_velocity,
+                radius: &grains.radius,
+                extra: &[],
+            };
+            vtk::write_grains(&self.grains.frame(tick.index), &frame, vtk::Precision::Single)?;
+            self.grains.add(tick.index, tick.time)?;
+        }
+        if self.pictures.contains(&tick.index) {
+            let png = self.palette.picture(&self.cell, grains);
+            let stem = self.directory.pictures().join(format!("bed-{:012}", tick.index));
+            atomic::write(&stem.with_extension("png"), &png)?;
+            atomic::write(&stem.with_extension("txt"), caption.as_bytes())?;
+        }
+        Ok(())
+    }
+
+    /// Brings all to the disk and says what a checkpoint must remember.
+    ///
+    /// # Errors
+    /// If the disk says no.
+    pub fn written(&self, step: u64) -> Result<Written, StoreError> {
+        let mut tables = vec![];
+        for t in &self.tables {
+            if let Some(t) = t {
+                t.sync()?;
+            }
+            tables.push(t.as_ref().map_or(0, TableFile::length));
+        }
+        Ok(Written { tables, dump: 0, step })
+    }
+
+    /// The palette, for a resumed run to colour as the first did.
+    #[must_use]
+    pub fn palette(&self) -> &pictures::Palette {
+        &self.palette
+    }
+
+    /// Takes over the palette of an earlier part of the run.
+    pub fn set_palette(&mut self, palette: pictures::Palette) {
+        self.palette = palette;
+    }
+
+    /// The series of observer `k` as written so far.
+    ///
+    /// # Errors
+    /// If it cannot be read back.
+    pub fn series(&self, plan: &Plan, k: usize) -> Result<Table, StoreError> {
+        match &self.tables[k] {
+            Some(_) => table::read(&self.path(plan, k)),
+            None => Ok(Table::default()),
+        }
+    }
+
+    fn path(&self, plan: &Plan, k: usize) -> PathBuf {
+        self.directory.tables().join(format!("{}.csv", plan.watches[k].name))
+    }
+}
