@@ -1,0 +1,378 @@
+//! Tracers: the points at which a body holds the fluid.
+
+use crate::body::Body;
+use brazilnut_base::menu::Entry;
+use brazilnut_base::{Side, Vec3, vec3};
+use brazilnut_fluid::Grid;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// How tracers fill a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Layout {
+    /// Points of a lattice with the grid's spacing around the centre (Clément 2.5.2, Fig. 2.17).
+    Lattice,
+    /// Concentric shells one spacing apart, the outermost drawn in below the surface (Breugem 2012).
+    Shells,
+}
+
+/// What `layout` may name, in the order of [`Layout::ALL`].
+pub const LAYOUTS: &[Entry] = &[
+    Entry {
+        name: "lattice",
+        summary: "A lattice with the grid's spacing around the centre; as many points as the body has cells.",
+        formula: "",
+        source: "Clément 2009, 2.5.2",
+    },
+    Entry {
+        name: "shells",
+        summary: "Shells one spacing apart, the outermost drawn in by `retraction`.",
+        formula: "",
+        source: "Breugem 2012",
+    },
+];
+
+impl Layout {
+    /// Every choice, in the order of [`LAYOUTS`].
+    pub const ALL: [Self; 2] = [Self::Lattice, Self::Shells];
+
+    /// The layout called `name`.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        LAYOUTS.iter().position(|e| e.name == name).map(|k| Self::ALL[k])
+    }
+}
+
+/// The tracers of all bodies of nearly one size.
+///
+/// They do not turn with the body: force and torque depend on the velocity at
+/// a place and on no memory, and a sphere or cylinder looks the same from all sides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Template {
+    /// Places from the centre, m, for a scale of 1; by slow, middle, contiguous axis of the grid.
+    pub points: Vec<Vec3>,
+    /// Part of the body's volume that each stands for; they sum to one.
+    pub share: Vec<f64>,
+    /// Pieces that span few planes of the grid.
+    pub parts: Vec<Part>,
+    /// Runs of lattice neighbours along the contiguous axis; empty for other layouts.
+    pub rows: Vec<Row>,
+}
+
+/// A piece of a template: tracers within [`PART_SPAN`] planes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// First tracer and the one after the last.
+    pub points: [usize; 2],
+    /// First row and the one after the last.
+    pub rows: [usize; 2],
+}
+
+/// Lattice neighbours along the contiguous axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// First tracer.
+    pub first: u32,
+    /// Number of tracers.
+    pub len: u16,
+    /// Lattice indices of the first, along the contiguous, middle and slow axis.
+    pub at: [i16; 3],
+}
+
+/// Height of a part in planes of the grid.
+pub const PART_SPAN: f64 = 2.0;
+
+/// The template of one grain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fit {
+    /// Index of the template.
+    pub template: u32,
+    /// Factor on its places.
+    pub scale: f64,
+}
+
+/// Templates for a population of bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Templates {
+    /// The templates.
+    pub all: Vec<Template>,
+    /// The template of each grain, in the order of identity.
+    pub of: Vec<Fit>,
+}
+
+/// Steps per spacing in which shells are made; sizes between are scaled.
+const SIZES_PER_SPACING: f64 = 10.0;
+
+impl Templates {
+    /// Templates for bodies of `radii` (m) on `grid`; `retraction` in spacings is for shells.
+    #[must_use]
+    pub fn new(grid: &Grid, body: Body, radii: &[f64], layout: Layout, retraction: f64) -> Self {
+        let mut known = BTreeMap::new();
+        let mut all = vec![];
+        let lattice = Shell::all(grid, radii.iter().copied().fold(0.0, f64::max));
+        let of = radii
+            .iter()
+            .map(|&r| {
+                let (key, scale) = match layout {
+                    Layout::Lattice => (count(&lattice, body.volume(r) / grid.cell_volume()), 1.0),
+                    Layout::Shells => {
+                        let h = spacing(grid);
+                        let key = (r / h * SIZES_PER_SPACING).round().max(1.0);
+                        let outer = |r: f64| (r - retraction * h).max(0.25 * r);
+                        (key as usize, outer(r) / outer(key * h / SIZES_PER_SPACING))
+                    }
+                };
+                let template = *known.entry(key).or_insert_with(|| {
+                    let points = match layout {
+                        Layout::Lattice => lattice_points(&lattice, key, grid),
+                        Layout::Shells => shell_points(grid, key as f64 / SIZES_PER_SPACING, retraction),
+                    };
+                    all.push(Template::new(grid, points, layout));
+                    all.len() - 1
+                });
+                Fit { template: template as u32, scale }
+            })
+            .collect();
+        Self { all, of }
+    }
+
+    /// The template of grain `k` and its scale.
+    #[inline]
+    #[must_use]
+    pub fn fit(&self, k: usize) -> (&Template, f64) {
+        let fit = self.of[k];
+        (&self.all[fit.template as usize], fit.scale)
+    }
+
+    /// Number of tracers of all grains.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.of.iter().map(|f| self.all[f.template as usize].points.len()).sum()
+    }
+}
+
+/// Geometric mean of the spacings of directions that are not flat, m.
+#[must_use]
+pub fn spacing(grid: &Grid) -> f64 {
+    let mut product = 1.0;
+    for axis in 0..3 {
+        if grid.sides[axis] != Side::Flat {
+            product *= grid.spacing[axis];
+        }
+    }
+    product.powf(1.0 / grid.dimensions() as f64)
+}
+
+impl Template {
+    fn new(grid: &Grid, mut points: Vec<(Vec3, f64)>, layout: Layout) -> Self {
+        let [line, middle, slow] = grid.memory_order();
+        let key = |x: &Vec3| [x[slow], x[middle], x[line]];
+        points.sort_by(|a, b| key(&a.0).partial_cmp(&key(&b.0)).unwrap_or(std::cmp::Ordering::Equal));
+        let total: f64 = points.iter().map(|p| p.1).sum();
+        let share: Vec<f64> = points.iter().map(|p| p.1 / total).collect();
+        let points: Vec<Vec3> = points.into_iter().map(|p| p.0).collect();
+        let rows = if layout == Layout::Lattice { rows(grid, &points) } else { vec![] };
+        let span = if layout == Layout::Lattice { 0.5 } else { PART_SPAN } * grid.spacing[slow];
+        let mut parts: Vec<Part> = vec![];
+        let mut low = f64::NEG_INFINITY;
+        for (k, x) in points.iter().enumerate() {
+            if x[slow] - low >= span {
+                low = x[slow];
+                parts.push(Part { points: [k, k], rows: [0, 0] });
+            }
+            if let Some(last) = parts.last_mut() {
+                last.points[1] = k + 1;
+            }
+        }
+        for part in &mut parts {
+            part.rows = part.points.map(|p| rows.partition_point(|r| (r.first as usize) < p));
+        }
+        Self { points, share, parts, rows }
+    }
+}
+
+/// Lattice points at one distance from the centre.
+struct Shell {
+    radius: f64,
+    points: Vec<Vec3>,
+    /// Points up to this distance.
+    count: usize,
+}
+
+impl Shell {
+    /// All lattice shells up to somewhat beyond `largest` (m).
+    fn all(grid: &Grid, largest: f64) -> Vec<Self> {
+        let reach = |axis: usize| match grid.sides[axis] {
+            Side::Flat => 0,
+            _ => (largest / grid.spacing[axis]) as i32 + 2,
+        };
+        let (a, b, c) = (reach(0), reach(1), reach(2));
+        let h = Vec3::from_array(grid.spacing);
+        let mut points: Vec<Vec3> = (-c..=c)
+            .flat_map(|k| (-b..=b).flat_map(move |j| (-a..=a).map(move |i| [i, j, k])))
+            .map(|i| h * Vec3::from_array(i.map(f64::from)))
+            .collect();
+        points.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        let mut shells: Vec<Self> = vec![];
+        for x in points {
+            let radius = x.length();
+            match shells.last_mut() {
+                // Distances that differ by rounding are one.
+                Some(s) if radius - s.radius <= 1e-9 * radius => s.points.push(x),
+                _ => shells.push(Self { radius, points: vec![x], count: 0 }),
+            }
+        }
+        let mut count = 0;
+        for s in &mut shells {
+            count += s.points.len();
+            s.count = count;
+        }
+        shells
+    }
+}
+
+/// Number of shells whose points come nearest to `cells`, so that each controls a cell (Clément 2.5.2).
+fn count(shells: &[Shell], cells: f64) -> usize {
+    let off = |k: &usize| (shells[*k].count as f64 - cells).abs();
+    (0..shells.len()).min_by(|a, b| off(a).total_cmp(&off(b))).map_or(0, |k| k + 1)
+}
+
+fn lattice_points(shells: &[Shell], count: usize, _: &Grid) -> Vec<(Vec3, f64)> {
+    shells[..count].iter().flat_map(|s| s.points.iter().map(|x| (*x, 1.0))).collect()
+}
+
+/// Points on shells of a body of `radius` spacings, with the volume (2-D: area) that each stands for.
+fn shell_points(grid: &Grid, radius: f64, retraction: f64) -> Vec<(Vec3, f64)> {
+    let h = spacing(grid);
+    let flat = (0..3).find(|&a| grid.sides[a] == Side::Flat);
+    let power = if flat.is_some() { 2 } else { 3 };
+    let outermost = (radius - retraction).max(0.25 * radius);
+    let mut points = vec![];
+    let (mut r, mut beyond) = (outermost, radius);
+    loop {
+        let innermost = r < 1.25;
+        let within = if innermost { 0.0 } else { r - 0.5 };
+        let volume = f64::powi(beyond, power) - f64::powi(within, power);
+        let directions = match flat {
+            Some(axis) => ring(r, axis),
+            None => cubed_sphere(r),
+        };
+        let share = volume / directions.len() as f64;
+        points.extend(directions.into_iter().map(|n| (h * r * n, share)));
+        if innermost {
+            return points;
+        }
+        (r, beyond) = (r - 1.0, within);
+    }
+}
+
+/// Directions to points about one spacing apart on a circle of `r` spacings, symmetric under quarter turns.
+fn ring(r: f64, axis: usize) -> Vec<Vec3> {
+    let n = 4 * ((std::f64::consts::TAU * r / 4.0).round() as usize).max(1);
+    let (a, b) = (Vec3::AXES[(axis + 1) % 3], Vec3::AXES[(axis + 2) % 3]);
+    (0..n)
+        .map(|k| {
+            let (s, c) = (std::f64::consts::TAU * (k as f64 + 0.5) / n as f64).sin_cos();
+            c * a + s * b
+        })
+        .collect()
+}
+
+/// Directions to points about one spacing apart on a sphere of `r` spacings, symmetric as a cube is.
+///
+/// Equal angles on the six faces of a cube (Ronchi et al. 1996).
+fn cubed_sphere(r: f64) -> Vec<Vec3> {
+    // n² points a face cover 4 pi r² / 6; the 1/12 is the curvature of a shell one spacing thick.
+    let area = 4.0 * std::f64::consts::PI * (r * r + 1.0 / 12.0);
+    let n = ((area / 6.0).sqrt().round() as usize).max(1);
+    let tangent = |k: usize| (std::f64::consts::FRAC_PI_4 * ((2 * k + 1) as f64 / n as f64 - 1.0)).tan();
+    let mut points = vec![];
+    for j in 0..n {
+        for i in 0..n {
+            let (s, t) = (tangent(i), tangent(j));
+            for sign in [1.0, -1.0] {
+                points.extend([vec3(sign, s, t), vec3(t, sign, s), vec3(s, t, sign)].map(Vec3::normalize));
+            }
+        }
+    }
+    points
+}
+
+/// Runs of neighbours along the contiguous axis among sorted lattice points.
+fn rows(grid: &Grid, points: &[Vec3]) -> Vec<Row> {
+    let order = grid.memory_order();
+    let h = Vec3::from_array(grid.spacing);
+    let index = |x: &Vec3| order.map(|a| (x[a] / h[a]).round() as i16);
+    let mut rows: Vec<Row> = vec![];
+    for (k, x) in points.iter().enumerate() {
+        let at = index(x);
+        match rows.last_mut() {
+            Some(r) if at[1..] == r.at[1..] && at[0] == r.at[0] + r.len as i16 => r.len += 1,
+            _ => rows.push(Row { first: k as u32, len: 1, at }),
+        }
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cube(h: f64) -> Grid {
+        Grid::new([20; 3], [h; 3], [Side::Walls; 3])
+    }
+
+    #[test]
+    fn three_points_per_radius_fill_a_sphere() {
+        // 4/3 pi 27 = 113.1 lies between the shells of 93 and 123 lattice points, nearer to 123.
+        let t = Templates::new(&cube(1.0), Body::Sphere, &[3.0, 2.9, 3.15], Layout::Lattice, 0.0);
+        let n: Vec<usize> = (0..3).map(|k| t.fit(k).0.points.len()).collect();
+        assert_eq!(n, [123, 93, 123]);
+        assert_eq!(t.all.len(), 2, "equal templates are shared");
+        let rows = &t.fit(0).0.rows;
+        assert_eq!(rows.len(), 29);
+        assert_eq!(rows.iter().map(|r| r.len as usize).sum::<usize>(), 123);
+    }
+
+    #[test]
+    fn templates_are_balanced_and_sum_to_one() {
+        let flat = Grid::new([20, 1, 20], [1.0, 5.0, 1.2], [Side::Walls, Side::Flat, Side::Walls]);
+        let cylinder = Body::Cylinder { length: 5.0 };
+        for (grid, body) in [(cube(1.0), Body::Sphere), (flat, cylinder)] {
+            for layout in Layout::ALL {
+                for r in [0.6, 1.0, 3.0, 5.3, 10.5] {
+                    let t = Templates::new(&grid, body, &[r], layout, 0.4);
+                    let (t, _) = t.fit(0);
+                    // Rounding of up to 5000 terms.
+                    assert!((t.share.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+                    let centre: Vec3 = t.points.iter().zip(&t.share).map(|(x, s)| *x * *s).sum();
+                    assert!(centre.length() < 1e-12 * r, "{layout:?} {r}: {centre}");
+                    let covered: usize = t.parts.iter().map(|p| p.points[1] - p.points[0]).sum();
+                    assert_eq!(covered, t.points.len());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn shells_carry_the_inertia_of_the_body() {
+        let t = Templates::new(&cube(1.0), Body::Sphere, &[8.0], Layout::Shells, 0.4);
+        let (t, _) = t.fit(0);
+        let second: f64 = t.points.iter().zip(&t.share).map(|(x, s)| s * x.length_squared()).sum();
+        // Gyration radius squared times 3/2; a retraction of 0.4 spacings in 8 weighs the rim 3 % low.
+        let exact = 0.6 * 64.0;
+        assert!((second / exact - 1.0).abs() < 0.04, "{second} of {exact}");
+    }
+
+    #[test]
+    fn shells_reach_to_the_retracted_surface_at_every_size() {
+        for r in [2.93, 3.0, 3.31] {
+            let t = Templates::new(&cube(1.0), Body::Sphere, &[r], Layout::Shells, 0.4);
+            let (t, scale) = t.fit(0);
+            let far = t.points.iter().map(|x| scale * x.length()).fold(0.0, f64::max);
+            // Rounding only.
+            assert!((far - (r - 0.4)).abs() < 1e-12);
+        }
+    }
+}
