@@ -122,6 +122,17 @@ pub(crate) fn table(spec: &FluidSpec, shape: &Shape, time: f64) -> Table {
     })
 }
 
+/// The ghost layers of a change of pressure: none of it at held ends.
+pub(crate) fn change(spec: &FluidSpec, shape: &Shape) -> [Layers; 3] {
+    let mut spec = spec.clone();
+    for side in spec.sides.iter_mut().flatten() {
+        if let Boundary::Outflow { pressure } = side {
+            *pressure = 0.0;
+        }
+    }
+    table(&spec, shape, 0.0)[3]
+}
+
 fn side_rule(spec: &FluidSpec, shape: &Shape, field: usize, level: usize, end: usize, time: f64) -> Rule {
     let side = &spec.sides[shape.axis[level]][end];
     let even = Rule::Mirror { sign: 1.0, twice: 0.0 };

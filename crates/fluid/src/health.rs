@@ -12,6 +12,18 @@ impl Solver {
     /// The step, the quantity and the cell where it broke.
     pub fn health(&self, flow: &Flow, tick: Tick) -> Result<(), Blowup> {
         let limit = self.spec.courant_limit;
+        if let Some(c) = self.convergence().filter(|c| !c.converged) {
+            return Err(Blowup {
+                tick,
+                quantity: format!(
+                    "pressure residual {:.3e} Pa/m² after {} iterations",
+                    c.residual, c.iterations
+                ),
+                place: "fluid".into(),
+                remedy: "look for a porosity near zero or a cell cut off by solids that something flows into"
+                    .into(),
+            });
+        }
         // The step itself watched its result; only a suspicion is worth a search.
         let peak = self
             .peaks

@@ -2,12 +2,13 @@
 
 use crate::field::{CellField, Faces};
 use crate::flow::Flow;
+use crate::general::General;
 use crate::ghosts;
 use crate::grid::Grid;
 use crate::inflow;
 use crate::lanes::Path;
 use crate::medium::Medium;
-use crate::pressure::{Poisson, Transforms};
+use crate::pressure::{Convergence, Poisson, Transforms};
 use crate::shape::Shape;
 use crate::spec::{FluidSpec, SpecError};
 use crate::step;
@@ -30,6 +31,8 @@ pub struct Solver {
     pub(crate) peaks: Vec<f64>,
     /// Whether `peaks` holds for the flow at hand.
     pub(crate) watched: bool,
+    /// What obstacles and media need, made when first asked for.
+    pub(crate) general: Option<Box<General>>,
 }
 
 /// The velocity between prediction and projection, lent to whoever imposes solids.
@@ -67,6 +70,7 @@ impl Solver {
             data: vec![0.0; poisson.len()],
             peaks: vec![0.0; shape.n[2]],
             watched: false,
+            general: None,
             shape,
             poisson,
             spec,
@@ -104,8 +108,25 @@ impl Solver {
         medium: &Medium,
         during: impl FnMut(&mut Predicted<'_>),
     ) {
-        step::advance(self, flow, tick, body, medium, during);
         self.watched = true;
+        step::advance(self, flow, tick, body, medium, during);
+    }
+
+    /// How the last iterative pressure solve ended; nothing where the direct solver did.
+    #[must_use]
+    pub fn convergence(&self) -> Option<Convergence> {
+        self.general.as_ref().map(|g| g.convergence)
+    }
+
+    /// Whether this step needs more than the direct solver; prepares it.
+    pub(crate) fn needs_general(&mut self, medium: &Medium) -> bool {
+        let needed = !self.spec.solids.is_empty() || medium.resistance.is_some() || medium.mixture.is_some();
+        if !needed {
+            self.general = None;
+        } else if self.general.is_none() {
+            self.general = Some(Box::new(General::new(&self.spec, &self.shape, &self.poisson)));
+        }
+        needed
     }
 
     /// Refills wall values and ghosts for time `time` (s), after a change from outside.

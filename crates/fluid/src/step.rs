@@ -3,7 +3,9 @@
 use crate::boundary::Boundary;
 use crate::field::Faces;
 use crate::flow::{Flow, Past};
+use crate::general::close_ends;
 use crate::ghosts;
+use crate::inflow;
 use crate::medium::Medium;
 use crate::momentum::advection::Factors;
 use crate::momentum::predict::{Recipe, predict};
@@ -21,9 +23,13 @@ pub(crate) fn advance(
     medium: &Medium,
     mut during: impl FnMut(&mut Predicted<'_>),
 ) {
-    let _ = medium;
     let recipe = recipe(solver, flow, tick, body);
+    let general = solver.needs_general(medium);
     predict_velocity(solver, flow, tick, &recipe);
+    if general {
+        around_solids(solver, flow, &recipe);
+        resist(solver, medium, tick.dt);
+    }
     during(&mut Predicted {
         grid: &solver.spec.grid,
         velocity: &mut solver.star,
@@ -32,7 +38,11 @@ pub(crate) fn advance(
         tick,
         density: solver.spec.density,
     });
-    project(solver, flow, tick);
+    if general {
+        project_general(solver, flow, tick, medium);
+    } else {
+        project(solver, flow, tick);
+    }
     flow.body = absorbed(solver, body);
 }
 
@@ -106,6 +116,74 @@ fn project(solver: &mut Solver, flow: &mut Flow, tick: Tick) {
         table[level][2].fill_units(field, solver.shape.stride[2]);
     }
     table[3][2].fill_units(&mut flow.pressure.values, solver.shape.stride[2]);
+}
+
+/// Puts the surfaces of solids between the neighbours that they separate:
+/// the value beyond is minus the one here, as at a sticking wall.
+fn around_solids(solver: &mut Solver, flow: &mut Flow, recipe: &Recipe) {
+    let order = solver.shape.axis;
+    let Some(general) = &solver.general else { return };
+    for link in &general.links {
+        let axis = order[link.component];
+        let v = flow.velocity.component(axis);
+        let rate = -recipe.factors[link.level].diffusion * (v[link.here] + v[link.there]);
+        solver.star.component_mut(axis)[link.here] += recipe.weights[0] * rate;
+        if let Some(past) = &mut flow.past {
+            past.rate.component_mut(axis)[link.here] += rate;
+        }
+    }
+}
+
+/// The implicit resistance of the medium: `v* <- m (v* + dt beta u)`.
+fn resist(solver: &mut Solver, medium: &Medium, dt: f64) {
+    let Some(general) = &mut solver.general else { return };
+    general.set_mobility(medium.resistance.as_ref(), dt);
+    let Some(resistance) = &medium.resistance else { return };
+    for axis in 0..3 {
+        let (beta, u) = (resistance.rate.component(axis), resistance.target.component(axis));
+        let mobility = general.mobility.component(axis);
+        let star = solver.star.component_mut(axis).iter_mut();
+        for (((star, beta), u), m) in star.zip(beta).zip(u).zip(mobility) {
+            *star = m * (*star + dt * beta * u);
+        }
+    }
+}
+
+/// The projection around obstacles or through a medium.
+fn project_general(solver: &mut Solver, flow: &mut Flow, tick: Tick, medium: &Medium) {
+    let order = solver.shape.axis;
+    let incremental = solver.spec.scheme == Scheme::SecondOrder;
+    let table = ghosts::table(&solver.spec, &solver.shape, tick.end());
+    let held = ends(&solver.spec, &solver.inflow, incremental).map(|end| match end {
+        End::Held(value) => Some(value),
+        _ => None,
+    });
+    let Some(general) = &mut solver.general else { return };
+    let shape = &solver.shape;
+    for axis in 0..3 {
+        let open = general.open.component(axis);
+        for (star, open) in solver.star.component_mut(axis).iter_mut().zip(open) {
+            *star *= open;
+        }
+    }
+    inflow::impose(&solver.inflow, &solver.spec, shape, &mut solver.star);
+    close_ends(shape, &mut solver.star);
+    let strength = solver.spec.density / tick.dt;
+    let guess = (!incremental).then_some(&flow.pressure);
+    let star = solver.star.in_order(order);
+    general.solve(shape, &solver.poisson, star, medium, strength, held, guess);
+    let layers = if incremental { &general.change } else { &table[3] };
+    ghosts::fill_field(&mut general.increment.values, shape, layers);
+    general.correct(shape, star, strength, flow.velocity.in_order_mut(order));
+    if incremental {
+        for (p, q) in flow.pressure.values.iter_mut().zip(&general.increment.values) {
+            *p += q;
+        }
+    } else {
+        flow.pressure.values.copy_from_slice(&general.increment.values);
+    }
+    ghosts::fill(&mut flow.velocity, &mut flow.pressure, shape, &table);
+    solver.watched = false;
 }
 
 /// What the projection meets at the ends of level 0.
