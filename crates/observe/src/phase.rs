@@ -7,20 +7,21 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PhaseAverage {
     bins: Vec<Batched>,
+    first: f64,
 }
 
 impl PhaseAverage {
-    /// `bins` phases of rows of `width` numbers, `kept` batches each.
+    /// `bins` phases from `first` (in cycles) on, of rows of `width` numbers, `kept` batches each.
     #[must_use]
-    pub fn new(bins: usize, width: usize, kept: usize) -> Self {
-        Self { bins: vec![Batched::new(width, kept, 1); bins.max(1)] }
+    pub fn new(bins: usize, first: f64, width: usize, kept: usize) -> Self {
+        Self { bins: vec![Batched::new(width, kept, 1); bins.max(1)], first }
     }
 
-    /// The bin of a time in cycles: the nearest of `k/bins`.
+    /// The bin of a time in cycles: the nearest of `first + k/bins`.
     #[must_use]
     pub fn bin(&self, cycle: f64) -> usize {
         let n = self.bins.len() as f64;
-        (cycle.rem_euclid(1.0) * n).round() as usize % self.bins.len()
+        ((cycle - self.first).rem_euclid(1.0) * n).round() as usize % self.bins.len()
     }
 
     /// Takes a row at the time `cycle` (in cycles).
@@ -43,7 +44,7 @@ impl PhaseAverage {
     /// Phase of bin `k` in degrees; 0 is the floor moving up at its fastest.
     #[must_use]
     pub fn degrees(&self, k: usize) -> f64 {
-        360.0 * k as f64 / self.bins.len() as f64
+        360.0 * (self.first + k as f64 / self.bins.len() as f64)
     }
 }
 
@@ -54,7 +55,7 @@ mod tests {
 
     #[test]
     fn a_periodic_signal_in_noise() {
-        let mut p = PhaseAverage::new(12, 1, 16);
+        let mut p = PhaseAverage::new(12, 0.0, 1, 16);
         let noise = white(12 * 400, 0.25, 2);
         for (k, e) in noise.iter().enumerate() {
             let cycle = k as f64 / 12.0;
@@ -70,8 +71,11 @@ mod tests {
 
     #[test]
     fn rounding_of_the_time_does_not_shift_the_bin() {
-        let p = PhaseAverage::new(8, 1, 4);
+        let p = PhaseAverage::new(8, 0.0, 1, 4);
         assert_eq!(p.bin(2.999_999_999), 0);
         assert_eq!(p.bin(3.124_999_999), 1);
+        // Samples half way between the eighths of a cycle.
+        let p = PhaseAverage::new(8, 0.0625, 1, 4);
+        assert_eq!((p.bin(3.062_499_9), p.bin(3.062_500_1), p.degrees(1)), (0, 0, 67.5));
     }
 }

@@ -43,7 +43,7 @@ impl Series {
             start: f64::NAN,
             columns: vec![Blocking::default(); columns],
             batches: Batched::new(2 * columns, BATCHES, sampling.per_cycle.unwrap_or(1)),
-            phases: per_cycle.map(|n| PhaseAverage::new(n as usize, 2 * columns, CYCLES)),
+            phases: per_cycle.map(|n| PhaseAverage::new(n as usize, sampling.phase, 2 * columns, CYCLES)),
             spectrum: segment.map(|n| Welch::new(columns, n)),
             correlogram: segment.map(|n| Correlogram::new(columns, n)),
         }

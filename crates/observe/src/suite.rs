@@ -91,7 +91,7 @@ fn a_saved_observer_goes_on_as_if_nothing_had_happened() {
         setting.walls = &walls;
         setting.ledger = &["kinetic"];
         let interval = if entry.name == "convection" {
-            setting.sampling = Sampling { interval: 0.1, per_cycle: Some(1), cycles: Some(1) };
+            setting.sampling = Sampling { interval: 0.1, per_cycle: Some(1), cycles: Some(1), phase: 0.0 };
             0.1
         } else {
             0.01

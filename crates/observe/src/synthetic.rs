@@ -135,7 +135,7 @@ pub fn setting<'a>(cell: &'a Cell, species: &'a [(String, usize)]) -> Setting<'a
         largest_diameter: 0.02,
         has_flow: false,
         seed: 1,
-        sampling: Sampling { interval: 0.01, per_cycle: Some(10), cycles: None },
+        sampling: Sampling { interval: 0.01, per_cycle: Some(10), cycles: None, phase: 0.0 },
     }
 }
 

@@ -73,7 +73,7 @@ impl Watch {
                     }
                 })?;
         let mut setting = *setting;
-        setting.sampling = sampling(schedule, &setting);
+        setting.sampling = sampling(every, schedule, &setting);
         let observer = Observer::from_values(what, values, &setting)?;
         let columns = observer.columns().len();
         let segment = values.integer_opt("spectrum").map(|n| n as usize);
@@ -143,14 +143,14 @@ impl Watch {
         Some(all)
     }
 
-    /// Means with errors, profiles, fields, spectra: name of the table, and the table.
+    /// Means with errors, profiles, fields, spectra; tables are named within the watch (`means`, `by-phase`).
     #[must_use]
     pub fn results(&self) -> Vec<(String, Table)> {
         let mut all = self.observer.results();
         if let Some(series) = &self.series {
             all.extend(series.results(&self.observer.columns()));
         }
-        all.into_iter().map(|(tail, table)| (format!("{}-{tail}", self.name), table)).collect()
+        all
     }
 
     /// Plots for the report; `series` holds the rows returned so far.
@@ -171,13 +171,17 @@ fn kinetic_energy(view: &View) -> f64 {
 }
 
 /// What a schedule means in time and cycles.
-fn sampling(schedule: Schedule, setting: &Setting) -> Sampling {
+fn sampling(every: Every, schedule: Schedule, setting: &Setting) -> Sampling {
+    if every == Every::End {
+        return Sampling { interval: setting.steps as f64 * setting.dt, ..Sampling::default() };
+    }
     let whole = |a: u64, b: u64| (b > 0 && a.is_multiple_of(b)).then(|| a / b);
     let spc = setting.steps_per_cycle;
     Sampling {
         interval: schedule.period as f64 * setting.dt,
         per_cycle: spc.and_then(|s| whole(s, schedule.period)),
         cycles: spc.and_then(|s| whole(schedule.period, s)),
+        phase: spc.map_or(0.0, |s| (schedule.offset % schedule.period.min(s)) as f64 / s as f64),
     }
 }
 
@@ -240,17 +244,17 @@ mod tests {
         }
         let results = w.results();
         let table = |name: &str| &results.iter().find(|r| r.0 == name).unwrap().1;
-        let gap = table("bed-by-phase").column("gap").unwrap();
+        let gap = table("by-phase").column("gap").unwrap();
         assert_eq!(gap.len(), 10);
         // Phase 72° is the third of ten bins.
         assert!((gap[2] - 0.4 - 0.1 * 72_f64.to_radians().sin()).abs() < 1e-12);
-        let power = table("bed-spectrum").column("gap").unwrap();
-        let f = table("bed-spectrum").column("frequency").unwrap();
+        let power = table("spectrum").column("gap").unwrap();
+        let f = table("spectrum").column("frequency").unwrap();
         let peak = (0..power.len()).max_by(|&a, &b| power[a].total_cmp(&power[b])).unwrap();
         assert!((f[peak] - 10.0).abs() < 1.0);
-        let mean = table("bed-means").column("centre_of_mass_z").unwrap();
+        let mean = table("means").column("centre_of_mass_z").unwrap();
         assert!((mean[0] - 0.5).abs() < 1e-12);
-        let rho = table("bed-autocorrelation").column("gap").unwrap();
+        let rho = table("autocorrelation").column("gap").unwrap();
         // Segments of 6.4 periods: the part of a period left over shifts the products by some per cent.
         assert!((rho[10] - 1.0).abs() < 0.1 && (rho[5] + 1.0).abs() < 0.1, "{} {}", rho[10], rho[5]);
         assert!(!w.figures(&Table::default()).is_empty());

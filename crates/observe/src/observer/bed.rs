@@ -3,6 +3,7 @@
 use super::{Faults, Observe, Selection, Setting};
 use crate::height;
 use crate::view::{Needs, Partner, View};
+use crate::zones::Body as Shape;
 use brazilnut_base::figure::{Axis, Body, Curve, Figure};
 use brazilnut_base::keys::{Check, Key, Kind};
 use brazilnut_base::menu::Entry;
@@ -26,12 +27,13 @@ impl Observe for Bed {
         summary: "The bed as a whole: two heights, gap under it, centre of mass, kinetic energy, contacts, largest overlap.",
         formula: "height_lid: height above the floor (m) below which lie the tops z + r of a fraction `percentile` of the mass\n\
                   height_threshold: highest place (m) where the solids fraction of slabs of thickness `layer` crosses `threshold`, linear between slab centres\n\
+                  bulk_solids_fraction = volume of the grains/(area of the base x height_threshold) (1)\n\
                   gap: min(z - r) above the floor (m); gap_percentile: height below which lie the lower edges of 1 - `percentile` of the mass (m)\n\
                   centre_of_mass = sum(m r)/sum(m), z above the floor (m)\n\
                   kinetic_energy = sum(m v^2)/2, rotational_energy = sum(I w^2)/2 (J), in the frame of the cell\n\
                   contacts: touching pairs, walls included; coordination = 2 pairs of grains/grains\n\
                   overlap: largest overlap over the radius of the smaller grain",
-        source: "Clément 2009, 3.2.1 (gap); Lan 1994, 4.2 (height from the solids fraction)",
+        source: "Clément 2009, 3.2.1 (gap); Lan 1994, 4.2 (height from the solids fraction, bulk solids fraction)",
     };
 
     const KEYS: &'static [Key] = &[
@@ -74,6 +76,7 @@ impl Observe for Bed {
         [
             ("height_lid", "m"),
             ("height_threshold", "m"),
+            ("bulk_solids_fraction", "1"),
             ("gap", "m"),
             ("gap_percentile", "m"),
             ("centre_of_mass_x", "m"),
@@ -93,8 +96,10 @@ impl Observe for Bed {
         let g = view.grains;
         let (mut mass, mut moment, mut kinetic, mut spin, mut gap) =
             (0.0, Vec3::ZERO, 0.0, 0.0, f64::INFINITY);
+        let (body, mut volume) = (Shape::of(view.cell), 0.0);
         for k in (0..g.len()).filter(|&k| self.of.takes(g, k)) {
             mass += g.mass[k];
+            volume += body.volume(g.radius[k]);
             moment += g.mass[k] * g.position[k];
             kinetic += 0.5 * g.mass[k] * g.velocity[k].length_squared();
             spin += 0.5 * g.inertia[k] * g.angular_velocity[k].length_squared();
@@ -103,9 +108,11 @@ impl Observe for Bed {
         let floor = view.floor_height();
         let centre = moment / mass - Vec3::Z * floor;
         let touch = self.touches(view);
+        let height = height::by_solids_fraction(view, self.of, self.threshold, self.layer);
         Some(vec![
             height::lid(view, self.of, self.percentile),
-            height::by_solids_fraction(view, self.of, self.threshold, self.layer),
+            height,
+            volume / (view.cell.base_area() * height),
             gap - floor,
             height::lower_edge(view, self.of, 1.0 - self.percentile),
             centre.x,

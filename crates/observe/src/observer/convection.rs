@@ -288,7 +288,7 @@ mod tests {
     fn convection(stage: &Stage) -> Convection {
         let species = [("all".to_string(), stage.grains.len())];
         let mut s = setting(&stage.cell, &species);
-        s.sampling = Sampling { interval: 0.1, per_cycle: Some(1), cycles: Some(1) };
+        s.sampling = Sampling { interval: 0.1, per_cycle: Some(1), cycles: Some(1), phase: 0.0 };
         Convection::from_values(&values(Convection::KEYS, &[("size", 0.25)]), &s).unwrap()
     }
 

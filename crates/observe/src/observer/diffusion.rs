@@ -222,7 +222,14 @@ impl Observe for Diffusion {
             Figure {
                 title: "Mean square displacement".into(),
                 caption: "<[r(t + tau) - r(t)]²> per axis, paths without periodic jumps; half the slope of the fit is the self-diffusion.".into(),
-                body: Body::Curves { x: lag, y: Axis::linear("mean square displacement", "m^2"), curves: slopes },
+                body: Body::Curves { x: lag.clone(), y: Axis::linear("mean square displacement", "m^2"), curves: slopes },
+            },
+            Figure {
+                title: "Self-diffusion against the lag".into(),
+                caption: "Lines: integral of the velocity autocorrelation up to the lag. Dashed: half the slope of the mean \
+                          square displacement there. Both are flat where the motion has become diffusive, and should then meet."
+                    .into(),
+                body: Body::Curves { x: lag, y: Axis::linear("self-diffusion", "m^2/s"), curves: self.growing(&curves) },
             },
         ]
     }
@@ -316,6 +323,28 @@ impl Diffusion {
             out[6] = (out[0] + out[2] + out[4]) / 3.0;
             out[7] = (out[1] + out[3] + out[5]) / 3.0;
         })
+    }
+
+    /// Both estimates as they grow with the lag.
+    fn growing(&self, curves: &[Estimate]) -> Vec<Curve> {
+        let n = self.lags + 1;
+        let mut all = vec![];
+        for a in 0..3 {
+            let (c, m) = (|l: usize| curves[a * n + l].value, |l: usize| curves[(3 + a) * n + l].value);
+            let mut integral = 0.0;
+            let mut points = vec![[0.0, 0.0]];
+            for l in 1..n {
+                integral += 0.5 * self.interval * (c(l - 1) + c(l));
+                points.push([l as f64 * self.interval, integral]);
+            }
+            // Slopes over a twentieth of the largest lag, so that they do not show every sample's noise.
+            let h = (n / 40).max(1);
+            let slope = |l: usize| 0.25 * (m(l + h) - m(l - h)) / (h as f64 * self.interval);
+            let slopes = (h..n - h).map(|l| [l as f64 * self.interval, slope(l)]).collect();
+            all.push(Curve::line(format!("{} by velocities", AXES[a]), points));
+            all.push(Curve::line(format!("{} by displacements", AXES[a]), slopes).styled(Style::Dashed));
+        }
+        all
     }
 
     /// Whether both ways agree, and if not, what does not settle.

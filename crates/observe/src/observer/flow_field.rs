@@ -91,7 +91,7 @@ impl Observe for FlowField {
         Ok(Self {
             of: Selection::read(values, setting)?,
             plane,
-            sums: PhaseAverage::new(phases, SUMS * grid.len(), BATCHES),
+            sums: PhaseAverage::new(phases, setting.sampling.phase, SUMS * grid.len(), BATCHES),
             grid,
             draw: values.list("draw").iter().filter_map(angle).collect(),
             point: values.vector_opt("point").map(|p| plane.map(|a| p[a])),

@@ -72,6 +72,8 @@ pub struct Sampling {
     pub per_cycle: Option<u64>,
     /// Shake cycles between two samples, if that is a whole number.
     pub cycles: Option<u64>,
+    /// Phase of the first sample in a cycle, in cycles.
+    pub phase: f64,
 }
 
 /// Key and message of everything that is wrong with a table.

@@ -154,7 +154,7 @@ impl Observe for Profile {
                 row.extend([below.value, below.error]);
             }
         }
-        vec![("long-term".into(), table)]
+        vec![("long-term".into(), table), ("cell".into(), self.stats.cell())]
     }
 
     fn figures(&self, _: &Table) -> Vec<Figure> {
@@ -265,5 +265,8 @@ mod tests {
         for (b, e) in below.iter().zip([0.5, 0.5, 0.5, 1.0, 1.0]) {
             assert!((b - e).abs() < 1e-12);
         }
+        // Over the cell: half of the mass at the mean of 0 to 8; each zone holds one grain, so nothing fluctuates.
+        let cell = |name: &str| results[1].1.column(name).unwrap()[0];
+        assert!((cell("velocity_z") - 2.0).abs() < 1e-12 && cell("temperature").abs() < 1e-12);
     }
 }

@@ -5,9 +5,9 @@ use crate::accumulate::{Batched, Estimate};
 use crate::view::View;
 use crate::zones::Zones;
 use crate::zones::sums::{self, Frame, QUANTITIES, SUMS};
-use brazilnut_base::Table;
 use brazilnut_base::keys::{Key, Kind};
 use brazilnut_base::values::Values;
+use brazilnut_base::{Column, Table};
 use serde::{Deserialize, Serialize};
 
 /// The key that both have.
@@ -18,8 +18,10 @@ pub const FRAME: Key = Key::default(
     "Frame of places and velocities: the cell's, or that of a floor that moves alone.",
 );
 
-/// More zones than this would take gigabytes of sums.
-const MOST: usize = 40_000;
+/// More zones than this would take hundreds of megabytes of sums.
+const MOST: usize = 200_000;
+/// From so many zones on, errors have to come from fewer batches.
+const MANY: usize = 10_000;
 
 /// Sums over zones and samples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,7 +45,11 @@ impl ZoneStats {
             of: Selection::read(values, setting)?,
             frame,
             flat: setting.cell.flat_axis().is_some(),
-            sums: Batched::new(SUMS * zones.len(), 16, setting.sampling.per_cycle.unwrap_or(1)),
+            sums: Batched::new(
+                SUMS * zones.len(),
+                if zones.len() > MANY { 4 } else { 16 },
+                setting.sampling.per_cycle.unwrap_or(1),
+            ),
             zones,
         })
     }
@@ -67,6 +73,25 @@ impl ZoneStats {
         let all =
             self.sums.estimates(self.zones.len() * QUANTITIES.len(), |s, n, out| self.quantities(s, n, out));
         all.chunks(QUANTITIES.len()).map(<[Estimate]>::to_vec).collect()
+    }
+
+    /// Means over the whole cell, fluctuations still about the mean velocity of each zone: one row.
+    pub fn cell(&self) -> Table {
+        let volume: f64 = (0..self.zones.len()).map(|k| self.zones.volume(k)).sum();
+        let means = self.sums.estimates(QUANTITIES.len(), |s, n, out| {
+            let mut all = [0.0; SUMS];
+            for zone in s.chunks_exact(SUMS) {
+                all.iter_mut().zip(zone).for_each(|(a, x)| *a += x);
+            }
+            sums::derive(&all, n, volume, self.flat, out);
+        });
+        let mut t = Table::default();
+        for (name, unit) in QUANTITIES {
+            t.columns.push(Column::new(*name, *unit));
+            t.columns.push(Column::new(format!("{name}_error"), *unit));
+        }
+        t.rows.push(means.iter().flat_map(|e| [e.value, e.error]).collect());
+        t
     }
 
     /// The long-term means as a table: coordinates, then each quantity with its error.

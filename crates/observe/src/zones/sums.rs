@@ -160,7 +160,8 @@ pub const DEFINITIONS: &str = "sums over samples t >= t0 and grains i, m^ = mass
     kinetic_energy_density = sum m^ v^2/(2 n V), fluctuation_energy_density = sum m^ |v - u(t)|^2/(2 n V) (J/m^3, Lan 3-1-10)\n\
     kinetic_stress_ab = sum m^ (v_a - u_a(t)) (v_b - u_b(t))/(n V); contact_stress_ab = -sum over contacts of the symmetric part of f_a l_b/(n V), \
     f the force on a grain, l from its centre to its partner's (or to the contact point on a wall), shared out along l; pressure is positive (Pa)\n\
-    coordination: contacts per grain, each grain counted by its part inside";
+    coordination: contacts per grain, each grain counted by its part inside\n\
+    over the whole cell (table `cell`): the same sums over all zones, fluctuations about the mean of each zone; mass_below: share of the mass in a slab and those below it";
 
 /// The quantities of one zone from its `sums` over `samples` samples. Zones without grains have no velocity (NaN).
 pub fn derive(sums: &[f64], samples: f64, volume: f64, flat: bool, out: &mut [f64]) {
