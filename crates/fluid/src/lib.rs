@@ -11,6 +11,7 @@
 //! through [`Medium`] and [`Predicted`].
 
 pub mod boundary;
+pub mod diagnose;
 pub mod exact;
 pub mod field;
 pub mod flow;
@@ -19,6 +20,7 @@ pub(crate) mod ghosts;
 pub mod grid;
 mod health;
 pub(crate) mod inflow;
+pub mod keys;
 pub(crate) mod lanes;
 pub mod limits;
 pub mod medium;
