@@ -49,8 +49,8 @@ fn a_vortex_is_read_right() {
     assert!((spin - 2.0 * TAU).abs() < 1e-3 * spin, "{spin}");
     let v = velocity_at(grid, &flow.velocity, vec3(0.27, 0.03, 0.03));
     let exact = (TAU * 0.27).sin() * (TAU * 0.03).cos();
-    // Linear interpolation: (k h)²/8.
-    assert!((v.x - exact).abs() < 1.3e-3 && v.y == 0.0, "{v}");
+    // Linear interpolation: (k h)²/8 in each direction.
+    assert!((v.x - exact).abs() < 2.5e-3 && v.y == 0.0, "{v}");
     let p = pressure_at(grid, &flow, vec3(1.02, 0.05, -0.01));
     let exact = 250.0 * ((2.0 * TAU * 0.02).cos() + (2.0 * TAU * 0.01).cos());
     assert!((p - exact).abs() < 3.0, "{p} {exact}");
