@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::issue::Issues;
 use crate::parts;
 use brazilnut_base::values::Values;
-use brazilnut_bed::{Refusals, Report, System, coupled_columns, kinetic_theory, plug};
+use brazilnut_bed::{Refusals, Report, System, brazil_nut, coupled_columns, kinetic_theory, plug};
 use brazilnut_grains::packing::Sizes;
 use std::f64::consts::PI;
 
@@ -24,6 +24,9 @@ pub fn solve(case: &Case, model: &str) -> Result<Report, Issues> {
         "coupled-columns" => coupled_columns::CoupledColumnsSpec::from_values(t, &s)
             .and_then(|spec| coupled_columns::solve(&spec))
             .map(|c| c.report()),
+        "brazil-nut-column" => brazil_nut::BrazilNutSpec::from_values(t, &s)
+            .and_then(|spec| brazil_nut::solve(&spec))
+            .map(|b| b.report()),
         _ => kinetic_theory::KineticTheorySpec::from_values(t, &s)
             .and_then(|spec| kinetic_theory::solve(&spec))
             .map(|k| k.report()),

@@ -7,9 +7,12 @@ use crate::{check, parts};
 use brazilnut_base::schedule::Every;
 use brazilnut_base::values::Values;
 use brazilnut_base::{Cell, Side, Vec3};
+use brazilnut_fluid::{FluidSpec, Scheme};
+use brazilnut_grains::contact::{NormalLaw, RollingLaw, TangentialLaw};
 use brazilnut_grains::packing::{self, Filling, Placement, Region, Shape, Sizes};
 use brazilnut_grains::{
-    Arrangement, ContactSpec, DemSpec, Grains, Integrator, Limits, Material, Search, WallShape, WallSpec,
+    Arrangement, ContactSpec, DemSpec, Grains, Integrator, Limits, Material, PairSpec, PairTable, Search,
+    WallShape, WallSpec,
 };
 use brazilnut_observe::{Setting, Watch};
 use brazilnut_sim::clock::Clock;
@@ -49,6 +52,8 @@ pub struct Facts {
     pub diameter: f64,
     /// Density of the lightest grains, kg/m³.
     pub grain_density: f64,
+    /// Speed of the fluid that its step limits are taken at, m/s.
+    pub flow_speed: f64,
     /// Density (kg/m³) and viscosity (Pa s) of the fluid.
     pub fluid: Option<(f64, f64)>,
 }
@@ -61,15 +66,24 @@ pub fn build(case: &Case) -> Result<Built, Issues> {
     let v = &case.values;
     let mut issues = case.issues();
     let Some(cell) = parts::cell(v) else { return Err(issues) };
+    if v.text("model") == "fluid" {
+        return fluid_alone(case, cell);
+    }
     let materials = materials(v);
     let Some(contact) = contact::read(v, &materials, &mut issues) else { return Err(issues) };
     let start = place(case, &cell, &materials, &mut issues);
     let Some(start) = start else { return issues.or(()).map(|()| unreachable!()) };
     let facts = facts(v, &cell, &materials, &contact, &start, &mut issues);
-    let Some(clock) = clock(v, &facts, &mut issues) else { return issues.or(()).map(|()| unreachable!()) };
-    let walls = walls(v, &cell, &materials, facts.diameter);
+    let walls = walls(v, &cell, &materials);
     let species = species(v, &start);
     let medium = medium(v, &cell, &species, &mut issues);
+    let flow = match &medium {
+        Some(Medium::Coupled(_, f) | Medium::Fluid(f)) => Some(&**f),
+        _ => None,
+    };
+    let Some(clock) = clock(v, &facts, flow, &mut issues) else {
+        return issues.or(()).map(|()| unreachable!());
+    };
     let dem = DemSpec {
         cell,
         materials,
@@ -91,12 +105,6 @@ pub fn build(case: &Case) -> Result<Built, Issues> {
         Some("floor") => Shaken::Floor,
         _ => Shaken::Cell,
     };
-    let limits = v.table_opt("limits");
-    let guards = Guards {
-        every: limits.map_or(100, |l| l.integer("every").max(1) as u64),
-        action: if limits.is_some_and(|l| l.text("action") == "warn") { Action::Warn } else { Action::Stop },
-        energy_residual: limits.map_or(0.05, |l| l.number("energy_residual")),
-    };
     let plan = Plan {
         cell,
         gravity: parts::gravity(v),
@@ -110,9 +118,76 @@ pub fn build(case: &Case) -> Result<Built, Issues> {
         species,
         medium: medium.unwrap_or(Medium::Dry),
         watches,
-        guards,
+        guards: guards(v),
     };
     issues.or(Built { plan, facts })
+}
+
+/// A flow without grains.
+fn fluid_alone(case: &Case, cell: Cell) -> Result<Built, Issues> {
+    let v = &case.values;
+    let mut issues = case.issues();
+    let extent = (0..3).filter(|&a| cell.sides[a] != Side::Flat).map(|a| cell.size[a]);
+    let spacing = extent.fold(f64::INFINITY, f64::min) / 64.0;
+    let Some(spec) = crate::fluid::grid_fluid(v, &cell, spacing, Scheme::SecondOrder, &mut issues) else {
+        return issues.or(()).map(|()| unreachable!("a fluid that cannot be built has an issue"));
+    };
+    let shaking = parts::shaking(v);
+    let facts = Facts {
+        contact_time: f64::INFINITY,
+        flow_speed: crate::fluid::driving_speed(v).max(shaking.peak_speed()).max(1e-6),
+        shake: parts::fundamental(v),
+        fluid: Some((spec.density, spec.viscosity)),
+        diameter: cell.size.min_element(),
+        ..Facts::default()
+    };
+    let Some(clock) = clock(v, &facts, Some(&spec), &mut issues) else {
+        return issues.or(()).map(|()| unreachable!("a clock that cannot be made has an issue"));
+    };
+    let contact = ContactSpec {
+        normal: NormalLaw::Linear,
+        tangential: TangentialLaw::None,
+        rolling: RollingLaw::None,
+        pairs: PairTable::uniform(1, PairSpec { stiffness: Some(1.0), ..PairSpec::default() }),
+    };
+    // The grain engine runs empty; it wants a material all the same.
+    let dem = DemSpec {
+        cell,
+        materials: vec![Material { name: "none".into(), density: 1.0, elastic: None }],
+        contact,
+        walls: vec![],
+        integrator: Integrator::default(),
+        rotation: false,
+        dt: clock.dt,
+        limits: Limits::default(),
+        search: Search::default(),
+    };
+    let watches = watches(v, &cell, &clock, &[], &[], &facts, &mut issues);
+    let plan = Plan {
+        cell,
+        gravity: parts::gravity(v),
+        shaking,
+        shaken: Shaken::Cell,
+        clock,
+        settle: Settle::None,
+        dem,
+        settling_walls: vec![],
+        start: Grains::default(),
+        species: vec![],
+        medium: Medium::Fluid(Box::new(spec)),
+        watches,
+        guards: guards(v),
+    };
+    issues.or(Built { plan, facts })
+}
+
+fn guards(v: &Values) -> Guards {
+    let limits = v.table_opt("limits");
+    Guards {
+        every: limits.map_or(100, |l| l.integer("every").max(1) as u64),
+        action: if limits.is_some_and(|l| l.text("action") == "warn") { Action::Warn } else { Action::Stop },
+        energy_residual: limits.map_or(0.05, |l| l.number("energy_residual")),
+    }
 }
 
 /// The materials of the case, then those that only walls name.
@@ -244,7 +319,7 @@ fn bumps(v: &Values) -> Option<(Arrangement, f64)> {
 }
 
 /// The walls of the cell's sides and the lasting obstacles.
-fn walls(v: &Values, cell: &Cell, materials: &[Material], _diameter: f64) -> Vec<WallSpec> {
+fn walls(v: &Values, cell: &Cell, materials: &[Material]) -> Vec<WallSpec> {
     let index = |name: &str| materials.iter().position(|m| m.name == name).unwrap_or(0) as u16;
     let names = parts::side_materials(v);
     let shaking = parts::shaking(v);
@@ -360,6 +435,10 @@ fn facts(
             f.rayleigh_time = Some(f.rayleigh_time.unwrap_or(f64::INFINITY).min(t));
         }
     }
+    // Fluid drawn under a thrown bed moves as fast as the bed, a few times faster in gaps.
+    let settling =
+        (2.0 * v.number("gravity") * 2.0 * grains.radius.iter().copied().fold(0.0, f64::max)).sqrt();
+    f.flow_speed = parts::shaking(v).peak_speed().max(settling).max(own);
     f.mass = grains.mass.iter().sum();
     f.volume = grains.radius.iter().map(|&r| packing::occupied(r, cell)).sum();
     f.diameter = 2.0 * grains.radius.iter().sum::<f64>() / grains.len() as f64;
@@ -369,16 +448,17 @@ fn facts(
     f
 }
 
-fn clock(v: &Values, facts: &Facts, issues: &mut Issues) -> Option<Clock> {
+fn clock(v: &Values, facts: &Facts, flow: Option<&FluidSpec>, issues: &mut Issues) -> Option<Clock> {
     let t = v.table_opt("time")?;
-    if !facts.contact_time.is_finite() {
+    if flow.is_none() && !facts.contact_time.is_finite() {
         return None;
     }
-    let auto = facts.contact_time / t.number("steps_per_contact");
-    let (step, exact) = match t.number_opt("dt") {
-        Some(dt) => {
+    let grain = facts.contact_time / t.number("steps_per_contact");
+    let auto = flow.map_or(grain, |f| crate::fluid::largest_step(f, facts.flow_speed));
+    let (step, exact) = match (t.number_opt("dt"), flow) {
+        (Some(dt), None) => {
             // A contact seen less often than this gains energy (Clément 2.1.3 asks for ten).
-            if dt > facts.contact_time / 5.0 && !check::has_flow(v.text("model")) {
+            if dt > facts.contact_time / 5.0 {
                 issues.add(
                     t.span("dt"),
                     "the time step is too long for the contacts",
@@ -393,10 +473,25 @@ fn clock(v: &Values, facts: &Facts, issues: &mut Issues) -> Option<Clock> {
             }
             (dt, true)
         }
-        None => (auto, false),
+        (Some(dt), Some(f)) => {
+            let limits = brazilnut_fluid::step_limits(f, facts.flow_speed);
+            if let Some((name, limit)) =
+                limits.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).filter(|l| dt > l.1)
+            {
+                issues.add(
+                    t.span("dt"),
+                    "the time step is too long for the fluid",
+                    format!("the {name} limit is {limit:.3e} s at {:.3} m/s", facts.flow_speed),
+                    format!("leave `dt` out, or take at most {limit:.2e} s"),
+                );
+                return None;
+            }
+            (dt, true)
+        }
+        (None, _) => (auto, false),
     };
     let frequency = facts.shake.map(|s| s.1);
-    let grain = if check::has_flow(v.text("model")) { auto } else { step };
+    let grain = if flow.is_some() { grain } else { step };
     let mut clock = Clock::new(step, grain, frequency, exact);
     clock.end = match t.every_opt("end")? {
         Every::Cycles(n) => clock.steps_per_cycle? * n,
@@ -442,6 +537,13 @@ fn medium(v: &Values, cell: &Cell, species: &[Species], issues: &mut Issues) -> 
     match v.text("model") {
         "dry" => Some(Medium::Dry),
         "simple-drag" => crate::fluid::simple_drag(v, cell, species).map(Medium::SimpleDrag),
+        "navier-stokes" => {
+            // Two to three grains per cell: the mapping is smooth, the grid not finer than it means anything.
+            let largest = species.iter().map(|s| s.diameter).fold(0.0, f64::max);
+            let spec = crate::fluid::averaged(v, cell, species)?;
+            let grid = crate::fluid::grid_fluid(v, cell, 2.4 * largest, Scheme::FirstOrder, issues)?;
+            Some(Medium::Coupled(Box::new(spec), Box::new(grid)))
+        }
         other => {
             issues.add(v.span("model"), format!("`{other}` cannot be built yet"), "", "");
             None

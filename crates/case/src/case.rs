@@ -25,6 +25,14 @@ impl Case {
     /// # Errors
     /// Everything that is wrong, the file's absence included.
     pub fn load(path: &Path, overrides: &[String]) -> Result<Self, Issues> {
+        Self::load_and_append(path, overrides, "")
+    }
+
+    /// As [`Case::load`], with `more` TOML appended to the file's text.
+    ///
+    /// # Errors
+    /// As [`Case::load`].
+    pub fn load_and_append(path: &Path, overrides: &[String], more: &str) -> Result<Self, Issues> {
         let shown = path.display().to_string();
         let fail = |cause: String| {
             let mut issues = Issues::new(&shown, String::new());
@@ -43,7 +51,7 @@ impl Case {
         let bytes = std::fs::read(path).map_err(|e| fail(e.to_string()))?;
         let text = String::from_utf8(bytes).map_err(|_| fail("it is not text in UTF-8".into()))?;
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        Self::parse(&text, &shown, folder, overrides)
+        Self::parse(&format!("{text}\n{more}"), &shown, folder, overrides)
     }
 
     /// Reads a case from its text; `path` is for messages.

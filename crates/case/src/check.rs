@@ -35,6 +35,7 @@ pub fn check(case: &Case, issues: &mut Issues) {
     grains(v, model, issues);
     materials(v, model, issues);
     time(v, model, issues);
+    observers(v, issues);
 }
 
 /// Exactly one measure of how hard, and gravity where it is needed.
@@ -43,6 +44,7 @@ fn shaking(v: &Values, issues: &mut Issues) {
     let ways = ["gamma", "displacement_amplitude", "peak_velocity"];
     let given: Vec<&str> = ways.into_iter().filter(|w| s.has(w)).collect();
     match given.as_slice() {
+        [] if ways.iter().any(|w| issues.is_broken(&format!("shaking.{w}"))) => {}
         [] => issues.add(
             s.span.clone(),
             "`shaking` does not say how hard",
@@ -83,8 +85,7 @@ fn tables(v: &Values, model: &str, issues: &mut Issues) {
             Some(brazilnut_base::values::Value::List(l)) => l.is_empty(),
             Some(_) => false,
         };
-        // A table that is there but broken has been reported already.
-        if missing && !issues.source.contains(name) {
+        if missing && !issues.is_broken(name) {
             let place = v.span("model");
             issues.add(
                 place,
@@ -125,7 +126,9 @@ fn grains(v: &Values, model: &str, issues: &mut Issues) {
         .is_some_and(|c| c.text_opt("x") == Some("flat") || c.text_opt("y") == Some("flat"));
     let mut names: Vec<&str> = vec![];
     let mut shapes: Vec<&str> = vec![];
-    for g in v.tables("grains") {
+    for (k, g) in v.tables("grains").enumerate() {
+        let broken = |key: &str| issues.is_broken(&format!("grains[{k}].{key}"));
+        let (count_is_broken, diameter_is_broken) = (broken("count") || broken("at"), broken("diameter"));
         let (Some(name), Some(material)) = (g.text_opt("name"), g.text_opt("material")) else { continue };
         if names.contains(&name) {
             issues.add(
@@ -149,7 +152,7 @@ fn grains(v: &Values, model: &str, issues: &mut Issues) {
                 ),
             );
         }
-        if has_grains(model) && !g.has("count") && !g.has("at") {
+        if has_grains(model) && !g.has("count") && !g.has("at") && !count_is_broken {
             issues.add(
                 g.span.clone(),
                 format!("how many grains of \"{name}\"?"),
@@ -183,7 +186,8 @@ fn grains(v: &Values, model: &str, issues: &mut Issues) {
             );
         }
         shapes.push(shape);
-        if let Some(d) = g.table_opt("diameter")
+        if !diameter_is_broken
+            && let Some(d) = g.table_opt("diameter")
             && let Err(e) = brazilnut_grains::packing::Sizes::read(d)
         {
             issues.add(
@@ -193,6 +197,15 @@ fn grains(v: &Values, model: &str, issues: &mut Issues) {
                 e.remedy(),
             );
         }
+    }
+    let counts = || v.tables("grains").map(|g| g.integer_opt("count"));
+    if has_grains(model) && counts().count() > 0 && counts().all(|n| n == Some(0)) {
+        issues.add(
+            v.span("grains"),
+            "there are no grains",
+            "every count is zero",
+            "give a `count` above zero",
+        );
     }
     if has_grains(model)
         && v.table_opt("start").is_some_and(|s| s.text_opt("placement") == Some("file") && !s.has("file"))
@@ -248,6 +261,22 @@ fn materials(v: &Values, model: &str, issues: &mut Issues) {
     }
 }
 
+/// The name of an observer is the name of its files.
+fn observers(v: &Values, issues: &mut Issues) {
+    for o in v.tables("observe") {
+        let Some(name) = o.text_opt("name") else { continue };
+        let plain = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | ' ' | '.');
+        if name.is_empty() || name.len() > 100 || name.starts_with('.') || !name.chars().all(plain) {
+            issues.add(
+                o.span("name"),
+                format!("{name:?} cannot name an observer"),
+                "its tables are files of this name",
+                "use letters, digits, spaces, `-` and `_`",
+            );
+        }
+    }
+}
+
 fn time(v: &Values, model: &str, issues: &mut Issues) {
     use brazilnut_base::schedule::Every;
     let Some(t) = v.table_opt("time") else { return };
@@ -267,6 +296,15 @@ fn time(v: &Values, model: &str, issues: &mut Issues) {
             "expected a time or a number of cycles",
             "write `end = \"8 s\"` or `end = \"100 cycles\"`",
         ),
+        Some(Every::Time(x)) if x > LONGEST => too_long(t, issues),
+        Some(Every::Cycles(n) | Every::Steps(n)) if n as f64 > LONGEST => too_long(t, issues),
         _ => {}
     }
+}
+
+/// No run is longer than this, in seconds, cycles or steps: beyond it the counts of steps lose meaning.
+const LONGEST: f64 = 1e15;
+
+fn too_long(t: &Values, issues: &mut Issues) {
+    issues.add(t.span("end"), "the end is too far away", "no run gets there", "give an `end` below 1e15");
 }

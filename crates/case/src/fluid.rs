@@ -1,8 +1,13 @@
 //! The fluid of a case, for each rung that has one.
 
-use brazilnut_base::Cell;
+use crate::issue::Issues;
+use crate::parts;
 use brazilnut_base::values::Values;
+use brazilnut_base::{Cell, Side, Vec3};
+use brazilnut_coupling::CouplingSpec;
+use brazilnut_coupling::averaged::Averaged;
 use brazilnut_coupling::{Body, SimpleDrag};
+use brazilnut_fluid::{Advection, Boundary, Diffusion, FluidSpec, Grid, Profile, Scheme, Solid};
 use brazilnut_grains::packing::Shape;
 use brazilnut_sim::plan::Species;
 
@@ -19,4 +24,104 @@ pub fn simple_drag(v: &Values, cell: &Cell, species: &[Species]) -> Option<Simpl
     let (t, f) = (v.table_opt("simple-drag")?, v.table_opt("fluid")?);
     let diameter = species.iter().map(|s| s.diameter).collect();
     Some(SimpleDrag::read(t, f.number_opt("density")?, f.number_opt("viscosity")?, diameter, body(v, cell)))
+}
+
+/// The rung `navier-stokes`.
+#[must_use]
+pub fn averaged(v: &Values, cell: &Cell, species: &[Species]) -> Option<CouplingSpec> {
+    let (t, f) = (v.table_opt("navier-stokes")?, v.table_opt("fluid")?);
+    let diameter = species.iter().map(|s| s.diameter).collect();
+    let a = Averaged::read(t, f.number_opt("density")?, f.number_opt("viscosity")?, diameter, body(v, cell));
+    Some(CouplingSpec::Averaged(a))
+}
+
+/// The fluid on a grid of cells of edge `spacing` (m), where the case does not say otherwise.
+pub fn grid_fluid(
+    v: &Values,
+    cell: &Cell,
+    spacing: f64,
+    scheme: Scheme,
+    issues: &mut Issues,
+) -> Option<FluidSpec> {
+    let f = v.table_opt("fluid")?;
+    let spacing = f.number_opt("spacing").unwrap_or(spacing);
+    let grid = Grid::fill(cell, spacing);
+    // More cells than fit any workstation's memory are a slip of the pen.
+    const MOST: f64 = 1e9;
+    let count: f64 = (0..3).map(|a| (cell.size[a] / spacing).max(1.0)).product();
+    if !(count < MOST) {
+        issues.add(
+            f.span("spacing"),
+            "the grid is too fine",
+            format!("{count:.1e} cells"),
+            "give a larger `fluid.spacing`",
+        );
+        return None;
+    }
+    let mut spec = FluidSpec::new(grid, f.number_opt("density")?, f.number_opt("viscosity")?);
+    spec.scheme = match f.text_opt("scheme") {
+        Some("first-order") => Scheme::FirstOrder,
+        Some("second-order") => Scheme::SecondOrder,
+        _ => scheme,
+    };
+    spec.advection = match f.text_opt("advection") {
+        Some("koren") => Advection::Koren,
+        Some("none") => Advection::None,
+        _ => Advection::Central,
+    };
+    spec.diffusion =
+        if f.text_opt("diffusion") == Some("implicit") { Diffusion::Implicit } else { Diffusion::Explicit };
+    spec.courant_limit = v.table_opt("limits").map_or(1.0, |l| l.number("courant"));
+    for (k, name) in parts::SIDES.iter().enumerate() {
+        if let Some(side) = f.table_opt(name) {
+            spec.sides[k / 2][k % 2] = boundary(side);
+        }
+    }
+    for o in v.tables("obstacles").filter(|o| !o.flag("until_settled")) {
+        let (Some(low), Some(high)) = (o.vector_opt("from"), o.vector_opt("to")) else { continue };
+        let place = |r: Vec3, a: usize| {
+            ((r[a] / spec.grid.spacing[a]).round().max(0.0) as usize).min(spec.grid.cells[a])
+        };
+        let flat = |a: usize| spec.grid.sides[a] == Side::Flat;
+        let lows = std::array::from_fn(|a| if flat(a) { 0 } else { place(low, a) });
+        let highs = std::array::from_fn(|a| if flat(a) { 1 } else { place(high, a) });
+        spec.solids.push(Solid { low: lows, high: highs });
+    }
+    Some(spec)
+}
+
+fn boundary(t: &Values) -> Boundary {
+    match t.text("kind") {
+        "free-slip" => Boundary::FreeSlip,
+        "moving-lid" => Boundary::lid(t.vector_opt("velocity").unwrap_or(Vec3::ZERO)),
+        "inflow" => {
+            let speed = t.number_opt("speed").unwrap_or(0.0);
+            let profile =
+                if t.flag("parabolic") { Profile::Parabolic(speed) } else { Profile::Uniform(speed) };
+            Boundary::Inflow { profile }
+        }
+        "outflow" => Boundary::Outflow { pressure: t.number_opt("pressure").unwrap_or(0.0) },
+        _ => Boundary::NoSlip,
+    }
+}
+
+/// The largest step (s) that the scheme takes for flow no faster than `speed` (m/s), with a margin.
+#[must_use]
+pub fn largest_step(spec: &FluidSpec, speed: f64) -> f64 {
+    // Half of the sharpest limit: the speed is an estimate.
+    0.5 * brazilnut_fluid::step_limits(spec, speed).into_iter().map(|l| l.1).fold(f64::INFINITY, f64::min)
+}
+
+/// Fastest motion that sides drive the fluid with, m/s.
+#[must_use]
+pub fn driving_speed(v: &Values) -> f64 {
+    let Some(f) = v.table_opt("fluid") else { return 0.0 };
+    let sides = parts::SIDES.iter().filter_map(|s| f.table_opt(s));
+    sides
+        .map(|t| {
+            t.vector_opt("velocity")
+                .map_or(0.0, |u| u.length())
+                .max(t.number_opt("speed").unwrap_or(0.0).abs())
+        })
+        .fold(0.0, f64::max)
 }

@@ -26,13 +26,21 @@ pub struct Issues {
     pub source: String,
     /// The issues.
     pub list: Vec<Issue>,
+    /// Dotted paths of keys whose value could not be used: that they are absent is no news.
+    pub broken: Vec<String>,
 }
 
 impl Issues {
     /// An empty collection for `source` shown as `path`.
     #[must_use]
     pub fn new(path: &str, source: String) -> Self {
-        Self { path: path.into(), source, list: vec![] }
+        Self { path: path.into(), source, list: vec![], broken: vec![] }
+    }
+
+    /// Whether the key at `path`, or one inside it, has been reported already.
+    #[must_use]
+    pub fn is_broken(&self, path: &str) -> bool {
+        self.broken.iter().any(|b| b.strip_prefix(path).is_some_and(|r| r.is_empty() || r.starts_with('.')))
     }
 
     /// Adds one.

@@ -248,8 +248,40 @@ pub const OBSTACLE: &[Key] = &[
     Key::default("until_settled", Kind::Flag, "false", "Taken away when the settling ends."),
 ];
 
+/// A side of the box as the fluid meets it.
+const FLUID_SIDE: &[Key] = &[
+    Key::default(
+        "kind",
+        Kind::Choice(brazilnut_fluid::boundary::BOUNDARIES),
+        "\"no-slip\"",
+        "What the fluid meets.",
+    ),
+    Key::optional("velocity", Kind::Vector(D::VELOCITY), "Moving lid: its velocity."),
+    Key::optional(
+        "speed",
+        Kind::Quantity(D::VELOCITY),
+        "Inflow: mean speed into the box; negative draws fluid off.",
+    ),
+    Key::default("parabolic", Kind::Flag, "false", "Inflow: a laminar profile instead of a uniform one."),
+    Key::optional("pressure", Kind::Quantity(D::PRESSURE), "Outflow: pressure without the hydrostatic part."),
+];
+
+const fn fluid_side(name: &'static str, doc: &'static str) -> Key {
+    Key::optional(name, Kind::Table { keys: FLUID_SIDE, shorthand: Some("kind") }, doc)
+}
+
 /// `[fluid]`
 pub const FLUID: &[Key] = &[
+    Key::optional("spacing", Kind::Quantity(D::LENGTH), "Edge of the grid cells; of the rungs with grains from `points_per_radius` or the grain size by default.").with(POSITIVE),
+    Key::optional("scheme", Kind::Choice(brazilnut_fluid::spec::SCHEMES), "Time stepping; `second-order` for a fluid alone, `first-order` with grains by default."),
+    Key::default("advection", Kind::Choice(brazilnut_fluid::spec::ADVECTIONS), "\"central\"", "How momentum is carried along."),
+    Key::default("diffusion", Kind::Choice(brazilnut_fluid::spec::DIFFUSIONS), "\"explicit\"", "How viscosity is stepped."),
+    fluid_side("left", "The side x = 0."),
+    fluid_side("right", "The far side along x."),
+    fluid_side("front", "The side y = 0."),
+    fluid_side("back", "The far side along y."),
+    fluid_side("floor", "The side z = 0."),
+    fluid_side("lid", "The far side along z."),
     Key::required("density", Kind::Quantity(D::DENSITY), "Density of the fluid.").with(NON_NEGATIVE),
     Key::required("viscosity", Kind::Quantity(D::VISCOSITY), "Dynamic viscosity of the fluid.")
         .with(POSITIVE),
@@ -361,7 +393,9 @@ pub fn root() -> Vec<Key> {
 
 /// Tables of the rungs that bring their own keys.
 const RUNGS: &[(&str, &[Key])] = &[
+    ("navier-stokes", brazilnut_coupling::averaged::KEYS),
     ("plug", brazilnut_bed::plug::KEYS),
     ("coupled-columns", brazilnut_bed::coupled_columns::KEYS),
+    ("brazil-nut-column", brazilnut_bed::brazil_nut::KEYS),
     ("kinetic-theory", brazilnut_bed::kinetic_theory::KEYS),
 ];

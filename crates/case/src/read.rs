@@ -32,11 +32,14 @@ pub fn table(table: &DeTable<'_>, span: Span, keys: &[Key], path: &str, issues: 
                     // A header like [cell] has no span of its own worth showing: point at the name.
                     let span = if written.get_ref().is_table() { name.span() } else { written.span() };
                     values.insert(key.name, v, Some(span));
+                } else {
+                    issues.broken.push(place);
                 }
             }
             None => match key.absent {
                 Absent::Nothing => {}
                 Absent::Is(text) => values.insert(key.name, default(key, text), None),
+                Absent::Required if issues.is_broken(&place) => {}
                 Absent::Required => issues.add(
                     Some(header(&span, issues)),
                     format!("`{place}` is missing"),
@@ -220,7 +223,7 @@ fn checked(
     let unit = if d == Dimension::NONE { String::new() } else { format!(" {d}") };
     issues.add(
         Some(v.span()),
-        format!("`{path}` must be {}", check.words()),
+        format!("`{path}` must be {}", if x.is_finite() { check.words() } else { "finite".into() }),
         format!("this is {x}{unit}"),
         String::new(),
     );
@@ -318,7 +321,10 @@ fn unknown(name: &str, span: Span, keys: &[Key], path: &str, issues: &mut Issues
     let hint = nearest(name, keys.iter().map(|k| k.name));
     let place = if path.is_empty() { "a case".to_string() } else { format!("`{path}`") };
     let remedy = match hint {
-        Some(_) => did_you_mean(hint),
+        Some(meant) => {
+            issues.broken.push(join(path, meant));
+            did_you_mean(hint)
+        }
         None => format!("{place} knows {}", list(keys.iter().map(|k| k.name))),
     };
     issues.add(Some(span), format!("unknown key `{name}`"), format!("{place} has no such key"), remedy);

@@ -34,6 +34,10 @@ pub enum Command {
     Check(Check),
     /// Continue a run to where it would have ended.
     Resume(Resume),
+    /// Run rungs of the ladder on one case and lay their curves over each other.
+    Compare(Compare),
+    /// Run a case over values of its keys: one table and plots at the end.
+    Sweep(Sweep),
     /// Write a case file to start from.
     New(New),
     /// Tell what a case may name, with formulae and units.
@@ -116,6 +120,42 @@ pub struct Check {
 pub struct Resume {
     /// The run directory.
     pub directory: PathBuf,
+    /// The job.
+    #[command(flatten)]
+    pub job: JobArguments,
+}
+
+/// `compare`
+#[derive(Args)]
+pub struct Compare {
+    /// The case.
+    #[command(flatten)]
+    pub case: CaseArguments,
+    /// The rungs, separated by commas, as `modified-kroll,simple-drag`.
+    #[arg(long, value_delimiter = ',', required = true)]
+    pub models: Vec<String>,
+    /// Where the runs and the report go.
+    #[arg(long, value_name = "DIR", default_value = "runs/compare")]
+    pub out: PathBuf,
+    /// Replace runs that are there already.
+    #[arg(long)]
+    pub force: bool,
+    /// The job.
+    #[command(flatten)]
+    pub job: JobArguments,
+}
+
+/// `sweep`
+#[derive(Args)]
+pub struct Sweep {
+    /// The case file.
+    pub case: PathBuf,
+    /// KEY=A,B,C to vary a key, KEY=VALUE to set one; may be repeated for all combinations.
+    #[arg(long, value_name = "KEY=A,B,C", required = true)]
+    pub set: Vec<String>,
+    /// Where the table, the report and the runs go.
+    #[arg(long, value_name = "DIR", default_value = "runs/sweep")]
+    pub out: PathBuf,
     /// The job.
     #[command(flatten)]
     pub job: JobArguments,

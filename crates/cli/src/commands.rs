@@ -2,7 +2,7 @@
 
 use crate::arguments::{Arguments, CaseArguments, Command, JobArguments, New, Study};
 use brazilnut_case::{Case, describe, schema};
-use brazilnut_runner::{Failure, Options, run, sheet};
+use brazilnut_runner::{Failure, Options, compare, run, sheet, sweep};
 use clap::CommandFactory;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
@@ -44,6 +44,19 @@ fn carry_out(command: Command) -> Result<u8, Failure> {
             ended(outcome, &r.directory, r.job.quiet);
             Ok(outcome.exit_code())
         }
+        Command::Compare(c) => {
+            let options = Options { replace: c.force, ..job(&c.job)? };
+            let set = overrides(&c.case);
+            let outcome = compare::compare(&c.case.case, &set, &c.models, &c.out, &options)?;
+            ended(outcome, &c.out, c.job.quiet);
+            Ok(outcome.exit_code())
+        }
+        Command::Sweep(s) => {
+            let options = job(&s.job)?;
+            let outcome = sweep::sweep(&s.case, &s.set, &s.out, &options)?;
+            ended(outcome, &s.out, s.job.quiet);
+            Ok(outcome.exit_code())
+        }
         Command::New(n) => new(&n),
         Command::Describe { topic } => {
             print(&describe::describe(topic.as_deref()).map_err(Failure::Usage)?);
@@ -68,12 +81,14 @@ fn print(text: &str) {
     let _ = std::io::stdout().write_all(text.as_bytes());
 }
 
-fn load(arguments: &CaseArguments) -> Result<Case, Failure> {
+fn overrides(arguments: &CaseArguments) -> Vec<String> {
     let mut set = arguments.set.clone();
-    if let Some(seed) = arguments.seed {
-        set.push(format!("seed={seed}"));
-    }
-    Ok(Case::load(&arguments.case, &set)?)
+    set.extend(arguments.seed.map(|s| format!("seed={s}")));
+    set
+}
+
+fn load(arguments: &CaseArguments) -> Result<Case, Failure> {
+    Ok(Case::load(&arguments.case, &overrides(arguments))?)
 }
 
 fn job(arguments: &JobArguments) -> Result<Options, Failure> {

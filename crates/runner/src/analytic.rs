@@ -3,7 +3,7 @@
 use crate::directory::Directory;
 use crate::failure::Failure;
 use crate::report::{self, Shown};
-use crate::run::{Options, default_out};
+use crate::run::{Options, default_out, make_root};
 use crate::status::{Status, commit};
 use brazilnut_bed::Report;
 use brazilnut_case::{Case, analytic, parts};
@@ -22,9 +22,10 @@ pub fn run(case: &Case, options: &Options) -> Result<(), Failure> {
     let solved = analytic::solve(case, case.model())?;
     let wall_seconds = start.elapsed().as_secs_f64();
     let directory = Directory::new(&options.out.clone().unwrap_or_else(|| default_out(case)));
+    make_root(&directory)?;
+    let _lock = Lock::take(&directory.root)?;
     directory.claim(options.replace)?;
     atomic::make_folder(&directory.tables())?;
-    let _lock = Lock::take(&directory.root)?;
     atomic::write(&directory.case(), case.resolved().as_bytes())?;
     for (name, t) in &solved.tables {
         table::write(&directory.tables().join(format!("{name}.csv")), t)?;

@@ -47,6 +47,12 @@ impl Directory {
         self.root.join("grains")
     }
 
+    /// Grains for OVITO.
+    #[must_use]
+    pub fn dump(&self) -> PathBuf {
+        self.root.join("grains.lammpstrj")
+    }
+
     /// Pictures of the bed.
     #[must_use]
     pub fn pictures(&self) -> PathBuf {
@@ -81,7 +87,7 @@ impl Directory {
                 std::fs::remove_dir_all(&folder).map_err(|e| cannot(&folder, &e))?;
             }
         }
-        for file in [self.case(), self.status(), self.report()] {
+        for file in [self.case(), self.status(), self.report(), self.dump()] {
             if file.exists() {
                 std::fs::remove_file(&file).map_err(|e| cannot(&file, &e))?;
             }

@@ -1,6 +1,7 @@
 //! A run directory: from a case to tables, pictures, checkpoints and a report.
 
 pub mod analytic;
+pub mod compare;
 pub mod directory;
 pub mod failure;
 pub mod outputs;
@@ -11,6 +12,7 @@ pub mod run;
 pub mod sheet;
 pub mod status;
 pub mod stop;
+pub mod sweep;
 
 pub use failure::Failure;
 pub use run::{Options, Outcome, resume, run};

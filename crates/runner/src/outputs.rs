@@ -7,6 +7,7 @@ use brazilnut_base::values::Values;
 use brazilnut_base::{Cell, Table, Tick};
 use brazilnut_grains::Grains;
 use brazilnut_sim::Plan;
+use brazilnut_store::dump::Dump;
 use brazilnut_store::{GrainFrame, Series, StoreError, TableFile, atomic, table, vtk};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -27,6 +28,7 @@ pub struct Outputs {
     directory: Directory,
     tables: Vec<Option<TableFile>>,
     grains: Series,
+    dump: Option<Dump>,
     frames: Schedule,
     pictures: Vec<u64>,
     palette: pictures::Palette,
@@ -52,7 +54,8 @@ impl Outputs {
         });
         let tables = tables.collect::<Result<_, _>>()?;
         let grains = Series::create(&directory.root, "grains", "vtp")?;
-        Ok(Self::assemble(directory, plan, output, tables, grains))
+        let dump = output.flag("dump").then(|| Dump::create(&directory.dump())).transpose()?;
+        Ok(Self::assemble(directory, plan, output, tables, grains, dump))
     }
 
     /// The outputs of an earlier part of the run, cut back to `written`.
@@ -74,7 +77,13 @@ impl Outputs {
         });
         let tables = tables.collect::<Result<_, _>>()?;
         let grains = Series::resume(&directory.root, "grains", "vtp", written.step)?;
-        Ok(Self::assemble(directory, plan, output, tables, grains))
+        // A dump that was not asked for before starts here.
+        let dump = match (output.flag("dump"), written.dump) {
+            (false, _) => None,
+            (true, 0) => Some(Dump::create(&directory.dump())?),
+            (true, length) => Some(Dump::resume(&directory.dump(), length)?),
+        };
+        Ok(Self::assemble(directory, plan, output, tables, grains, dump))
     }
 
     fn assemble(
@@ -83,6 +92,7 @@ impl Outputs {
         output: &Values,
         tables: Vec<Option<TableFile>>,
         grains: Series,
+        dump: Option<Dump>,
     ) -> Self {
         let clock = &plan.clock;
         let every = output.every_opt("frames").unwrap_or(Every::End);
@@ -98,6 +108,7 @@ impl Outputs {
             directory: directory.clone(),
             tables,
             grains,
+            dump,
             frames,
             pictures,
             palette: pictures::Palette::new(plan),
@@ -147,6 +158,9 @@ impl Outputs {
             };
             vtk::write_grains(&self.grains.frame(tick.index), &frame, vtk::Precision::Single)?;
             self.grains.add(tick.index, tick.time)?;
+            if let Some(dump) = &mut self.dump {
+                dump.append(&frame)?;
+            }
         }
         if self.pictures.contains(&tick.index) {
             let png = self.palette.picture(&self.cell, grains);
@@ -169,7 +183,11 @@ impl Outputs {
             }
             tables.push(t.as_ref().map_or(0, TableFile::length));
         }
-        Ok(Written { tables, dump: 0, step })
+        if let Some(dump) = &self.dump {
+            dump.sync()?;
+        }
+        let dump = self.dump.as_ref().map_or(0, Dump::length);
+        Ok(Written { tables, dump, step })
     }
 
     /// The palette, for a resumed run to colour as the first did.

@@ -81,11 +81,11 @@ pub fn run(case: &Case, options: &Options) -> Result<Outcome, Failure> {
     }
     let built = build::build(case)?;
     let directory = Directory::new(&options.out.clone().unwrap_or_else(|| default_out(case)));
-    directory.claim(options.replace)?;
     let sheet = sheet::sheet(case.values.text("title"), case.model(), &built);
     let simulation = Simulation::new(built.plan.clone()).map_err(|e| refused(case, &e))?;
-    atomic::make_folder(&directory.root)?;
+    make_root(&directory)?;
     let _lock = Lock::take(&directory.root)?;
+    directory.claim(options.replace)?;
     atomic::write(&directory.case(), case.resolved().as_bytes())?;
     let output = case.values.table_opt("output").expect("has a default");
     let outputs = Outputs::create(&directory, simulation.plan(), output)?;
@@ -151,6 +151,12 @@ fn refused(case: &Case, e: &brazilnut_grains::SpecError) -> Failure {
         "see `brazilnut describe contact`",
     );
     Failure::from(issues)
+}
+
+/// The run directory itself. Asking for one that cannot be had is wrong input, not a failure under way.
+pub(crate) fn make_root(directory: &Directory) -> Result<(), Failure> {
+    atomic::make_folder(&directory.root)
+        .map_err(|e| Failure::Usage(format!("{e}\n  remedy: choose another --out")))
 }
 
 /// `runs/NAME` for a case file `NAME.toml`.

@@ -5,6 +5,7 @@
 //! engines. `step.rs` is the step.
 
 pub mod clock;
+mod flow_view;
 pub mod plan;
 pub mod simulation;
 pub mod state;

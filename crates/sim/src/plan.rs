@@ -3,7 +3,8 @@
 use crate::clock::Clock;
 use brazilnut_base::motion::Motion;
 use brazilnut_base::{Cell, Vec3};
-use brazilnut_coupling::SimpleDrag;
+use brazilnut_coupling::{CouplingSpec, SimpleDrag};
+use brazilnut_fluid::FluidSpec;
 use brazilnut_grains::{DemSpec, Grains, WallSpec};
 use brazilnut_observe::Watch;
 
@@ -53,6 +54,10 @@ pub enum Medium {
     Dry,
     /// A fluid at rest that drags: one way.
     SimpleDrag(SimpleDrag),
+    /// A flow that grains and fluid share.
+    Coupled(Box<CouplingSpec>, Box<FluidSpec>),
+    /// A flow without grains.
+    Fluid(Box<FluidSpec>),
 }
 
 /// What happens when a guard is passed.
@@ -107,6 +112,15 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// The fluid that is computed on a grid, if there is one.
+    #[must_use]
+    pub fn flow(&self) -> Option<&FluidSpec> {
+        match &self.medium {
+            Medium::Coupled(_, f) | Medium::Fluid(f) => Some(f),
+            Medium::Dry | Medium::SimpleDrag(_) => None,
+        }
+    }
+
     /// Frequency of the shake, Hz, if anything shakes.
     #[must_use]
     pub fn frequency(&self) -> Option<f64> {

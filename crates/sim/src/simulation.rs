@@ -1,13 +1,17 @@
 //! A run: its plan, its state, and the scratch of the engines.
 
 use crate::plan::{Action, Medium, Plan, Settle, Shaken};
+use crate::flow_view::Seen;
 use crate::state::{Stage, State};
+use crate::step::Engines;
 use crate::{step, view};
 use brazilnut_base::motion::Moved;
 use brazilnut_base::parallel::sum;
 use brazilnut_base::{Blowup, Cell, Tick, Vec3};
 use brazilnut_grains::{ContactView, Dem, DemSpec, Grains, Ledger, Partner, SpecError};
-use brazilnut_observe::{ContactAt, FluidAt, View, WallAt};
+use brazilnut_coupling::{Coupling, CouplingSpec};
+use brazilnut_fluid::Solver;
+use brazilnut_observe::{ContactAt, FlowView, FluidAt, View, WallAt};
 
 /// Whether there is more to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +26,7 @@ pub enum Ended {
 pub struct Simulation {
     plan: Plan,
     state: State,
-    dem: Dem,
+    engines: Engines,
     scratch: Scratch,
 }
 
@@ -44,21 +48,29 @@ impl Simulation {
     pub fn new(plan: Plan) -> Result<Self, SpecError> {
         let settling = plan.settle != Settle::None;
         let mut dem = Dem::new(spec(&plan, settling))?;
+        let solver = solver(&plan)?;
+        let start = if settling { plan.start.clone() } else { carried(&plan, &plan.start) };
         let state = State {
             stage: if settling { Stage::Settling { calm: 0 } } else { Stage::Running },
             step: 0,
             settled_after: 0,
-            dem: dem.start(&plan.start)?,
+            dem: dem.start(&start)?,
             porosity: match &plan.medium {
                 Medium::SimpleDrag(d) => d.start(&plan.cell),
                 _ => None,
             },
+            flow: solver.as_ref().map(Solver::start),
+            coupling: None,
             before: Ledger::default(),
             watches: plan.watches.clone(),
             largest_overlap: 0.0,
             largest_residual: 0.0,
         };
-        Ok(Self::assemble(plan, state, dem))
+        let mut run = Self::assemble(plan, state, Engines { dem, solver, coupling: None });
+        if !settling {
+            run.couple();
+        }
+        Ok(run)
     }
 
     /// A run continued from `state`, which must come from the same plan.
@@ -66,13 +78,32 @@ impl Simulation {
     /// # Errors
     /// If the grain engine refuses its specification.
     pub fn resume(plan: Plan, state: State) -> Result<Self, SpecError> {
-        let dem = Dem::new(spec(&plan, state.stage != Stage::Running))?;
-        Ok(Self::assemble(plan, state, dem))
+        let running = state.stage == Stage::Running;
+        let dem = Dem::new(spec(&plan, !running))?;
+        let solver = solver(&plan)?;
+        let mut run = Self::assemble(plan, state, Engines { dem, solver, coupling: None });
+        if running {
+            run.couple();
+        }
+        Ok(run)
     }
 
-    fn assemble(plan: Plan, state: State, dem: Dem) -> Self {
+    fn assemble(plan: Plan, state: State, engines: Engines) -> Self {
         let names = plan.species.iter().map(|s| s.name.clone()).collect();
-        Self { plan, state, dem, scratch: Scratch { names, ..Scratch::default() } }
+        Self { plan, state, engines, scratch: Scratch { names, ..Scratch::default() } }
+    }
+
+    /// Prepares the coupling for the grains as they are; a resumed run keeps its state.
+    fn couple(&mut self) {
+        if let Medium::Coupled(spec, _) = &self.plan.medium {
+            let Engines { dem, solver, coupling } = &mut self.engines;
+            dem.export(&self.state.dem, &mut self.scratch.grains);
+            let made = Coupling::new((**spec).clone(), self.plan.cell, solver.as_ref(), &self.scratch.grains);
+            if self.state.coupling.is_none() {
+                self.state.coupling = Some(made.start(&self.scratch.grains));
+            }
+            *coupling = Some(made);
+        }
     }
 
     /// The plan.
@@ -113,9 +144,9 @@ impl Simulation {
     pub fn step(&mut self) -> Result<(), Blowup> {
         let tick = self.tick();
         match self.state.stage {
-            Stage::Settling { .. } => step::dry(&self.plan, &mut self.dem, &mut self.state, tick),
+            Stage::Settling { .. } => step::dry(&self.plan, &mut self.engines.dem, &mut self.state, tick),
             Stage::Running => {
-                step::step(&self.plan, &mut self.dem, &mut self.state, &mut self.scratch.grains, tick);
+                step::step(&self.plan, &mut self.engines, &mut self.state, &mut self.scratch.grains, tick);
             }
         }
         self.state.step += 1;
@@ -164,18 +195,21 @@ impl Simulation {
     fn begin(&mut self) -> Result<(), Blowup> {
         self.guard()?;
         self.state.settled_after = self.state.step;
-        if !self.plan.settling_walls.is_empty() {
-            self.dem.export(&self.state.dem, &mut self.scratch.grains);
+        let lighter = matches!(&self.plan.medium, Medium::Coupled(c, _) if c.carries_template_mass());
+        if lighter || !self.plan.settling_walls.is_empty() {
+            self.engines.dem.export(&self.state.dem, &mut self.scratch.grains);
             let refused = |e: SpecError| Blowup {
                 tick: self.plan.clock.tick(0),
                 quantity: e.to_string(),
                 place: "taking away the walls of settling".into(),
                 remedy: "check the obstacles".into(),
             };
-            self.dem = Dem::new(spec(&self.plan, false)).map_err(refused)?;
-            self.state.dem = self.dem.start(&self.scratch.grains).map_err(refused)?;
+            self.engines.dem = Dem::new(spec(&self.plan, false)).map_err(refused)?;
+            let grains = carried(&self.plan, &self.scratch.grains);
+            self.state.dem = self.engines.dem.start(&grains).map_err(refused)?;
         }
-        self.state.before = self.dem.ledger(&self.state.dem);
+        self.couple();
+        self.state.before = self.engines.dem.ledger(&self.state.dem);
         self.state.stage = Stage::Running;
         self.state.step = 0;
         self.state.largest_overlap = 0.0;
@@ -186,9 +220,13 @@ impl Simulation {
     /// Looks whether the state still means anything.
     fn guard(&mut self) -> Result<(), Blowup> {
         let tick = self.tick();
-        let health = self.dem.health(&self.state.dem, tick);
+        let dem = &self.engines.dem;
+        let mut health = dem.health(&self.state.dem, tick);
+        if let (Some(solver), Some(flow)) = (&self.engines.solver, &self.state.flow) {
+            health = health.and(solver.health(flow, tick));
+        }
         let mut overlap = self.state.largest_overlap;
-        self.dem.contacts(&self.state.dem, |c| overlap = overlap.max(c.relative_overlap));
+        dem.contacts(&self.state.dem, |c| overlap = overlap.max(c.relative_overlap));
         self.state.largest_overlap = overlap;
         let ledger = self.ledger();
         let residual = ledger.residual().abs() / ledger.supplied().max(f64::MIN_POSITIVE);
@@ -255,16 +293,26 @@ impl Simulation {
             .iter()
             .filter(|w| w.is_due(&tick))
             .fold(brazilnut_observe::Needs::default(), |n, w| n.or(w.needs()));
-        let Self { plan, state, dem, scratch } = self;
-        let State { dem: grains, watches, porosity, before, .. } = state;
+        let Self { plan, state, engines: Engines { dem, solver, .. }, scratch } = self;
+        let State { dem: grains, watches, porosity, before, flow, coupling, .. } = state;
         dem.export(grains, &mut scratch.grains);
         scratch.contacts.clear();
         if needs.contacts {
             dem.contacts(grains, |c| scratch.contacts.push(contact(c, &scratch.grains, &plan.cell)));
         }
-        if let Medium::SimpleDrag(d) = &plan.medium {
-            d.drag_forces(porosity.as_ref(), &scratch.grains, &mut scratch.drag);
+        match (&plan.medium, &*coupling) {
+            (Medium::SimpleDrag(d), _) => d.drag_forces(porosity.as_ref(), &scratch.grains, &mut scratch.drag),
+            (_, Some(c)) => {
+                scratch.drag.clear();
+                scratch.drag.extend(c.loads.iter().map(|l| l.force));
+            }
+            _ => {}
         }
+        let resolved = matches!(&plan.medium, Medium::Coupled(c, _) if !matches!(**c, CouplingSpec::Averaged(_)));
+        let seen = match (solver, flow) {
+            (Some(s), Some(flow)) => Some(Seen { flow, grid: s.grid(), resolved, porosity: porosity.as_ref() }),
+            _ => None,
+        };
         let ledger = view::ledger(&view::since(&dem.ledger(grains), before));
         let walls: Vec<WallAt> = plan
             .dem
@@ -282,12 +330,17 @@ impl Simulation {
             Shaken::Cell => (moved, Moved::default()),
             Shaken::Floor => (Moved::default(), moved),
         };
-        let fluid = match &plan.medium {
-            Medium::SimpleDrag(d) => {
-                Some(FluidAt { density: d.density, viscosity: d.viscosity, flow: None, drag: &scratch.drag })
-            }
-            _ => None,
+        let (density, viscosity) = match &plan.medium {
+            Medium::SimpleDrag(d) => (d.density, d.viscosity),
+            Medium::Coupled(_, f) | Medium::Fluid(f) => (f.density, f.viscosity),
+            Medium::Dry => (0.0, 0.0),
         };
+        let fluid = (!matches!(plan.medium, Medium::Dry)).then(|| FluidAt {
+            density,
+            viscosity,
+            flow: seen.as_ref().map(|s| s as &dyn FlowView),
+            drag: &scratch.drag,
+        });
         let view = View {
             tick,
             cycle: tick.time * plan.frequency().unwrap_or(0.0),
@@ -316,14 +369,14 @@ impl Simulation {
 
     /// The grains now, for pictures and frames.
     pub fn grains(&mut self) -> &Grains {
-        self.dem.export(&self.state.dem, &mut self.scratch.grains);
+        self.engines.dem.export(&self.state.dem, &mut self.scratch.grains);
         &self.scratch.grains
     }
 
     /// The energy ledger since time 0 (since the start while settling).
     #[must_use]
     pub fn ledger(&self) -> Ledger {
-        view::since(&self.dem.ledger(&self.state.dem), &self.state.before)
+        view::since(&self.engines.dem.ledger(&self.state.dem), &self.state.before)
     }
 
     /// Root-mean-square speed of the grains, m/s.
@@ -344,6 +397,23 @@ fn contact(c: &ContactView, grains: &Grains, cell: &Cell) -> ContactAt {
         Partner::Wall(w) => (brazilnut_observe::Partner::Wall(w as u32), cell.nearest(c.point - centre)),
     };
     ContactAt { i: c.first as u32, with, overlap: c.overlap, force: c.force, branch }
+}
+
+/// The fluid solver, where the plan has a flow.
+fn solver(plan: &Plan) -> Result<Option<Solver>, SpecError> {
+    plan.flow().map(|f| Solver::new(f.clone()).map_err(|e| SpecError::new("fluid", e.to_string()))).transpose()
+}
+
+/// The grains with the mass that the coupling leaves to the engine.
+fn carried(plan: &Plan, grains: &Grains) -> Grains {
+    let mut grains = grains.clone();
+    if let Medium::Coupled(spec, _) = &plan.medium {
+        for k in 0..grains.len() {
+            let (m, i) = spec.carried(grains.mass[k], grains.inertia[k], grains.radius[k]);
+            (grains.mass[k], grains.inertia[k]) = (m, i);
+        }
+    }
+    grains
 }
 
 /// The engine's specification, with the walls of settling or without.

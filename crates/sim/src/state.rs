@@ -1,6 +1,8 @@
 //! All that changes while a run goes on: what a checkpoint holds.
 
+use brazilnut_coupling::CouplingState;
 use brazilnut_coupling::one_way::LocalPorosity;
+use brazilnut_fluid::Flow;
 use brazilnut_grains::{DemState, Ledger};
 use brazilnut_observe::Watch;
 use serde::{Deserialize, Serialize};
@@ -30,6 +32,10 @@ pub struct State {
     pub dem: DemState,
     /// Porosity map of `simple-drag`, where it is local.
     pub porosity: Option<LocalPorosity>,
+    /// The flow, where there is one.
+    pub flow: Option<Flow>,
+    /// What the coupling remembers, where grains and a flow are coupled.
+    pub coupling: Option<CouplingState>,
     /// The energy ledger as it stood at time 0.
     pub before: Ledger,
     /// The observers with what they have gathered.

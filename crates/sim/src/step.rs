@@ -1,12 +1,23 @@
-//! The step.
+//! The step: pages of named calls.
 
 use crate::plan::{Medium, Plan, Shaken};
 use crate::state::State;
 use brazilnut_base::{Tick, Vec3};
 use brazilnut_bed::with_bed_law;
-use brazilnut_coupling::Still;
 use brazilnut_coupling::one_way::Porosity;
+use brazilnut_coupling::{Coupling, SimpleDrag, Still};
+use brazilnut_fluid::Solver;
 use brazilnut_grains::{Dem, Grains};
+
+/// The engines of a run: their specifications and scratch.
+pub(crate) struct Engines {
+    /// The grains.
+    pub dem: Dem,
+    /// The fluid, where there is a flow.
+    pub solver: Option<Solver>,
+    /// What grains and flow hand each other; made at time 0, when sizes and places are known.
+    pub coupling: Option<Coupling>,
+}
 
 /// Gravity and the acceleration of the frame at time `t`, m/s².
 pub(crate) fn still(plan: &Plan, t: f64) -> Still {
@@ -17,7 +28,17 @@ pub(crate) fn still(plan: &Plan, t: f64) -> Still {
     Still { gravity: plan.gravity, frame }
 }
 
-/// One step of grains without a fluid.
+/// One step of the run as its medium asks.
+pub(crate) fn step(plan: &Plan, engines: &mut Engines, state: &mut State, grains: &mut Grains, tick: Tick) {
+    match &plan.medium {
+        Medium::Dry => dry(plan, &mut engines.dem, state, tick),
+        Medium::SimpleDrag(drag) => simple_drag(plan, drag, &mut engines.dem, state, grains, tick),
+        Medium::Coupled(..) => coupled(plan, engines, state, grains, tick),
+        Medium::Fluid(_) => fluid(plan, engines, state, tick),
+    }
+}
+
+/// Grains without a fluid.
 pub(crate) fn dry(plan: &Plan, dem: &mut Dem, state: &mut State, tick: Tick) {
     for k in 0..plan.clock.substeps {
         let sub = tick.substep(k, plan.clock.substeps);
@@ -25,10 +46,10 @@ pub(crate) fn dry(plan: &Plan, dem: &mut Dem, state: &mut State, tick: Tick) {
     }
 }
 
-/// One step of grains in a fluid at rest.
-pub(crate) fn simple_drag(
+/// Grains in a fluid at rest.
+fn simple_drag(
     plan: &Plan,
-    drag: &brazilnut_coupling::SimpleDrag,
+    drag: &SimpleDrag,
     dem: &mut Dem,
     state: &mut State,
     grains: &mut Grains,
@@ -46,10 +67,29 @@ pub(crate) fn simple_drag(
     });
 }
 
-/// One step of the run as its medium asks.
-pub(crate) fn step(plan: &Plan, dem: &mut Dem, state: &mut State, grains: &mut Grains, tick: Tick) {
-    match &plan.medium {
-        Medium::Dry => dry(plan, dem, state, tick),
-        Medium::SimpleDrag(drag) => simple_drag(plan, drag, dem, state, grains, tick),
+/// A flow without grains.
+fn fluid(plan: &Plan, engines: &mut Engines, state: &mut State, tick: Tick) {
+    let (Some(solver), Some(flow)) = (&mut engines.solver, &mut state.flow) else { return };
+    let body = still(plan, tick.time).modified_gravity();
+    solver.advance(flow, tick, body, &brazilnut_fluid::Medium::default(), |_| ());
+}
+
+/// Grains and flow: map, step the fluid, hand back, sub-step the grains.
+fn coupled(plan: &Plan, engines: &mut Engines, state: &mut State, grains: &mut Grains, tick: Tick) {
+    let Engines { dem, solver: Some(solver), coupling: Some(coupling) } = engines else { return };
+    let (Some(flow), Some(shared)) = (&mut state.flow, &mut state.coupling) else { return };
+    dem.export(&state.dem, grains);
+    coupling.before_fluid(grains, flow, shared);
+    {
+        let (mut during, medium) = coupling.parts();
+        let body = still(plan, tick.time).modified_gravity();
+        solver.advance(flow, tick, body, medium, |predicted| during.act(grains, predicted));
+    }
+    coupling.after_fluid(grains, flow, shared, tick.dt);
+    for k in 0..plan.clock.substeps {
+        let sub = tick.substep(k, plan.clock.substeps);
+        if let Some(field) = coupling.held(shared, still(plan, sub.time)) {
+            dem.advance(&mut state.dem, sub, &field);
+        }
     }
 }
