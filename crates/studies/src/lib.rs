@@ -5,7 +5,12 @@
 //! what was published (`published.toml`, written by hand), the cases, and a
 //! README with the deviations admitted.
 
+mod clement_fig_2_4_to_2_7;
+mod clement_fig_5_17;
+mod clement_fig_6_11;
+mod clement_modified_kroll_peaks;
 pub mod findings;
+mod lan_kinetic_theory;
 pub mod menu;
 pub mod study;
 

@@ -1,6 +1,10 @@
 //! The studies: a new one costs its file, its folder and an entry here.
 
 use crate::study::Study;
+use crate::{
+    clement_fig_2_4_to_2_7, clement_fig_5_17, clement_fig_6_11, clement_modified_kroll_peaks,
+    lan_kinetic_theory,
+};
 
 /// A study whose folder and id agree.
 macro_rules! study {
@@ -16,4 +20,22 @@ macro_rules! study {
 }
 
 /// All studies.
-pub const MENU: &[Study] = &[];
+pub const MENU: &[Study] = &[
+    study!("clement-fig-2-4-to-2-7", "Two steel spheres under three contact laws (Clément 2009)", |r| Ok(
+        clement_fig_2_4_to_2_7::run(r.quick).into()
+    )),
+    study!("clement-fig-5-17", "Partition instability of two coupled columns (Clément 2009)", |r| Ok(
+        clement_fig_5_17::run(r.quick).into()
+    )),
+    study!("clement-fig-6-11", "A steel intruder rises in the Brazil-nut column (Clément 2009)", |r| Ok(
+        clement_fig_6_11::run(r.quick).into()
+    )),
+    study!(
+        "clement-modified-kroll-peaks",
+        "Peak pressures of the modified Kroll model (Clément 2009)",
+        |r| Ok(clement_modified_kroll_peaks::run(r.quick).into())
+    ),
+    study!("lan-kinetic-theory", "Kinetic theory of a vibrated layer (Lan 1994)", |r| Ok(
+        lan_kinetic_theory::run(r.quick).into()
+    )),
+];
