@@ -30,14 +30,25 @@ pub const COMMON: &[Key] = &[
         "Phase of cycle schedules as an angle (\"90 deg\"); 0 is the floor moving up at its fastest.",
     ),
     Key::optional("of", Kind::Text, "Name of the grains that are meant; all if left out."),
-    Key::default("from", Kind::Quantity(Dimension::TIME), "0", "First time of a sample.")
-        .with(Check::NonNegative),
+    Key::default(
+        "from",
+        Kind::QuantityOr(Dimension::TIME, &["steady"]),
+        "0",
+        "First time of a sample; \"steady\": once the kinetic energy of the grains has become steady (MSER over batches of cycles).",
+    )
+    .with(Check::NonNegative),
     Key::optional(
         "until",
         Kind::Quantity(Dimension::TIME),
         "Last time of a sample; the end of the run if left out.",
     )
     .with(Check::Positive),
+    Key::optional(
+        "spectrum",
+        Kind::Integer,
+        "Take the power spectral density and the autocorrelation of every column of the series, in segments of so many samples.",
+    )
+    .with(Check::Between(8.0, 1_048_576.0)),
 ];
 
 /// An observer with its schedule.
@@ -197,6 +208,7 @@ mod tests {
         let mut v = values(&keys, &[]);
         v.insert("what", Value::Text("bed".into()), None);
         for (k, x) in extra {
+            assert!(keys.iter().any(|key| key.name == *k), "no key {k}");
             v.insert(k, x.clone(), None);
         }
         v
