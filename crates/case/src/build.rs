@@ -7,7 +7,7 @@ use crate::{check, parts};
 use brazilnut_base::schedule::Every;
 use brazilnut_base::values::Values;
 use brazilnut_base::{Cell, Side, Vec3};
-use brazilnut_fluid::{FluidSpec, Scheme};
+use brazilnut_fluid::FluidSpec;
 use brazilnut_grains::contact::{NormalLaw, RollingLaw, TangentialLaw};
 use brazilnut_grains::packing::{self, Filling, Placement, Region, Shape, Sizes};
 use brazilnut_grains::{
@@ -116,6 +116,7 @@ pub fn build(case: &Case) -> Result<Built, Issues> {
         settling_walls,
         start,
         species,
+        // Without a medium there is an issue, and this plan is not returned.
         medium: medium.unwrap_or(Medium::Dry),
         watches,
         guards: guards(v),
@@ -129,7 +130,7 @@ fn fluid_alone(case: &Case, cell: Cell) -> Result<Built, Issues> {
     let mut issues = case.issues();
     let extent = (0..3).filter(|&a| cell.sides[a] != Side::Flat).map(|a| cell.size[a]);
     let spacing = extent.fold(f64::INFINITY, f64::min) / 64.0;
-    let Some(spec) = crate::fluid::grid_fluid(v, &cell, spacing, Scheme::SecondOrder, &mut issues) else {
+    let Some(spec) = crate::fluid::grid_fluid(v, &cell, spacing, &mut issues) else {
         return issues.or(()).map(|()| unreachable!("a fluid that cannot be built has an issue"));
     };
     let shaking = parts::shaking(v);
@@ -541,12 +542,13 @@ fn medium(v: &Values, cell: &Cell, species: &[Species], issues: &mut Issues) -> 
             // Two to three grains per cell: the mapping is smooth, the grid not finer than it means anything.
             let largest = species.iter().map(|s| s.diameter).fold(0.0, f64::max);
             let spec = crate::fluid::averaged(v, cell, species)?;
-            let grid = crate::fluid::grid_fluid(v, cell, 2.4 * largest, Scheme::FirstOrder, issues)?;
+            let grid = crate::fluid::grid_fluid(v, cell, 2.4 * largest, issues)?;
             Some(Medium::Coupled(Box::new(spec), Box::new(grid)))
         }
-        other => {
-            issues.add(v.span("model"), format!("`{other}` cannot be built yet"), "", "");
-            None
+        _ => {
+            let (spec, spacing) = crate::fluid::resolved(v, cell, species, issues)?;
+            let grid = crate::fluid::grid_fluid(v, cell, spacing, issues)?;
+            Some(Medium::Coupled(Box::new(spec), Box::new(grid)))
         }
     }
 }

@@ -6,8 +6,8 @@ use brazilnut_base::values::Values;
 use brazilnut_base::{Cell, Side, Vec3};
 use brazilnut_coupling::CouplingSpec;
 use brazilnut_coupling::averaged::Averaged;
-use brazilnut_coupling::{Body, SimpleDrag};
-use brazilnut_fluid::{Advection, Boundary, Diffusion, FluidSpec, Grid, Profile, Scheme, Solid};
+use brazilnut_coupling::{Body, Resolved, SimpleDrag};
+use brazilnut_fluid::{FluidSpec, Solid, keys};
 use brazilnut_grains::packing::Shape;
 use brazilnut_sim::plan::Species;
 
@@ -35,21 +35,40 @@ pub fn averaged(v: &Values, cell: &Cell, species: &[Species]) -> Option<Coupling
     Some(CouplingSpec::Averaged(a))
 }
 
-/// The fluid on a grid of cells of edge `spacing` (m), where the case does not say otherwise.
-pub fn grid_fluid(
+/// A rung that resolves the fluid around every grain, with the grid spacing it asks for (m).
+pub fn resolved(
     v: &Values,
     cell: &Cell,
-    spacing: f64,
-    scheme: Scheme,
+    species: &[Species],
     issues: &mut Issues,
-) -> Option<FluidSpec> {
+) -> Option<(CouplingSpec, f64)> {
+    let model = v.text("model");
+    let (t, f) = (v.table_opt(model)?, v.table_opt("fluid")?);
+    let (density, viscosity) = (f.number_opt("density")?, f.number_opt("viscosity")?);
+    let smallest = species.iter().map(|s| s.diameter).fold(f64::INFINITY, f64::min);
+    match Resolved::read(model, t, density, viscosity, body(v, cell)) {
+        Ok(r) => Some((CouplingSpec::Resolved(r), 0.5 * smallest / t.number_opt("points_per_radius")?)),
+        Err((key, why)) => {
+            let span = t.span(key).or_else(|| v.span("model"));
+            issues.add(
+                span,
+                format!("`{model}` is not complete"),
+                why,
+                format!("see `brazilnut describe {model}`"),
+            );
+            None
+        }
+    }
+}
+
+/// The fluid on a grid of cells of edge `spacing` (m), where the case does not say otherwise.
+pub fn grid_fluid(v: &Values, cell: &Cell, spacing: f64, issues: &mut Issues) -> Option<FluidSpec> {
     let f = v.table_opt("fluid")?;
-    let spacing = f.number_opt("spacing").unwrap_or(spacing);
-    let grid = Grid::fill(cell, spacing);
+    let wanted = f.number_opt("spacing").unwrap_or(spacing);
     // More cells than fit any workstation's memory are a slip of the pen.
     const MOST: f64 = 1e9;
-    let count: f64 = (0..3).map(|a| (cell.size[a] / spacing).max(1.0)).product();
-    if !(count < MOST) {
+    let count: f64 = (0..3).map(|a| (cell.size[a] / wanted).max(1.0)).product();
+    if count.is_nan() || count > MOST {
         issues.add(
             f.span("spacing"),
             "the grid is too fine",
@@ -58,51 +77,26 @@ pub fn grid_fluid(
         );
         return None;
     }
+    let grid = keys::read_grid(f, cell, spacing);
     let mut spec = FluidSpec::new(grid, f.number_opt("density")?, f.number_opt("viscosity")?);
-    spec.scheme = match f.text_opt("scheme") {
-        Some("first-order") => Scheme::FirstOrder,
-        Some("second-order") => Scheme::SecondOrder,
-        _ => scheme,
-    };
-    spec.advection = match f.text_opt("advection") {
-        Some("koren") => Advection::Koren,
-        Some("none") => Advection::None,
-        _ => Advection::Central,
-    };
-    spec.diffusion =
-        if f.text_opt("diffusion") == Some("implicit") { Diffusion::Implicit } else { Diffusion::Explicit };
-    spec.courant_limit = v.table_opt("limits").map_or(1.0, |l| l.number("courant"));
+    keys::read_numerics(f, &mut spec);
     for (k, name) in parts::SIDES.iter().enumerate() {
-        if let Some(side) = f.table_opt(name) {
-            spec.sides[k / 2][k % 2] = boundary(side);
+        let Some(side) = f.table_opt(name) else { continue };
+        match keys::read_side(side) {
+            Ok(boundary) => spec.sides[k / 2][k % 2] = boundary,
+            Err(why) => issues.add(f.span(name), format!("`fluid.{name}` is not complete"), why, ""),
         }
     }
     for o in v.tables("obstacles").filter(|o| !o.flag("until_settled")) {
         let (Some(low), Some(high)) = (o.vector_opt("from"), o.vector_opt("to")) else { continue };
-        let place = |r: Vec3, a: usize| {
-            ((r[a] / spec.grid.spacing[a]).round().max(0.0) as usize).min(spec.grid.cells[a])
-        };
-        let flat = |a: usize| spec.grid.sides[a] == Side::Flat;
-        let lows = std::array::from_fn(|a| if flat(a) { 0 } else { place(low, a) });
-        let highs = std::array::from_fn(|a| if flat(a) { 1 } else { place(high, a) });
-        spec.solids.push(Solid { low: lows, high: highs });
+        let g = &spec.grid;
+        let place = |r: Vec3, a: usize| ((r[a] / g.spacing[a]).round().max(0.0) as usize).min(g.cells[a]);
+        let flat = |a: usize| g.sides[a] == Side::Flat;
+        let low = std::array::from_fn(|a| if flat(a) { 0 } else { place(low, a) });
+        let high = std::array::from_fn(|a| if flat(a) { 1 } else { place(high, a) });
+        spec.solids.push(Solid { low, high });
     }
     Some(spec)
-}
-
-fn boundary(t: &Values) -> Boundary {
-    match t.text("kind") {
-        "free-slip" => Boundary::FreeSlip,
-        "moving-lid" => Boundary::lid(t.vector_opt("velocity").unwrap_or(Vec3::ZERO)),
-        "inflow" => {
-            let speed = t.number_opt("speed").unwrap_or(0.0);
-            let profile =
-                if t.flag("parabolic") { Profile::Parabolic(speed) } else { Profile::Uniform(speed) };
-            Boundary::Inflow { profile }
-        }
-        "outflow" => Boundary::Outflow { pressure: t.number_opt("pressure").unwrap_or(0.0) },
-        _ => Boundary::NoSlip,
-    }
 }
 
 /// The largest step (s) that the scheme takes for flow no faster than `speed` (m/s), with a margin.

@@ -3,8 +3,10 @@
 use brazilnut_base::keys::{Check, Key, Kind};
 use brazilnut_base::menu::Entry;
 use brazilnut_base::units::Dimension as D;
+use brazilnut_coupling::resolved::menu as resolved;
 use brazilnut_grains::material::MATERIAL_KEYS;
 use brazilnut_grains::packing::{DIAMETER_KEYS, PLACEMENT_KEYS};
+use std::sync::LazyLock;
 
 const POSITIVE: Check = Check::Positive;
 const NON_NEGATIVE: Check = Check::NonNegative;
@@ -248,44 +250,26 @@ pub const OBSTACLE: &[Key] = &[
     Key::default("until_settled", Kind::Flag, "false", "Taken away when the settling ends."),
 ];
 
-/// A side of the box as the fluid meets it.
-const FLUID_SIDE: &[Key] = &[
-    Key::default(
-        "kind",
-        Kind::Choice(brazilnut_fluid::boundary::BOUNDARIES),
-        "\"no-slip\"",
-        "What the fluid meets.",
-    ),
-    Key::optional("velocity", Kind::Vector(D::VELOCITY), "Moving lid: its velocity."),
-    Key::optional(
-        "speed",
-        Kind::Quantity(D::VELOCITY),
-        "Inflow: mean speed into the box; negative draws fluid off.",
-    ),
-    Key::default("parabolic", Kind::Flag, "false", "Inflow: a laminar profile instead of a uniform one."),
-    Key::optional("pressure", Kind::Quantity(D::PRESSURE), "Outflow: pressure without the hydrostatic part."),
-];
-
 const fn fluid_side(name: &'static str, doc: &'static str) -> Key {
-    Key::optional(name, Kind::Table { keys: FLUID_SIDE, shorthand: Some("kind") }, doc)
+    Key::optional(name, Kind::Table { keys: brazilnut_fluid::keys::SIDE_KEYS, shorthand: Some("kind") }, doc)
 }
 
-/// `[fluid]`
-pub const FLUID: &[Key] = &[
-    Key::optional("spacing", Kind::Quantity(D::LENGTH), "Edge of the grid cells; of the rungs with grains from `points_per_radius` or the grain size by default.").with(POSITIVE),
-    Key::optional("scheme", Kind::Choice(brazilnut_fluid::spec::SCHEMES), "Time stepping; `second-order` for a fluid alone, `first-order` with grains by default."),
-    Key::default("advection", Kind::Choice(brazilnut_fluid::spec::ADVECTIONS), "\"central\"", "How momentum is carried along."),
-    Key::default("diffusion", Kind::Choice(brazilnut_fluid::spec::DIFFUSIONS), "\"explicit\"", "How viscosity is stepped."),
+/// `[fluid]`: the fluid itself, and what it meets at the sides.
+const FLUID: &[Key] = &[
+    Key::required("density", Kind::Quantity(D::DENSITY), "Density of the fluid.").with(NON_NEGATIVE),
+    Key::required("viscosity", Kind::Quantity(D::VISCOSITY), "Dynamic viscosity of the fluid.")
+        .with(POSITIVE),
     fluid_side("left", "The side x = 0."),
     fluid_side("right", "The far side along x."),
     fluid_side("front", "The side y = 0."),
     fluid_side("back", "The far side along y."),
     fluid_side("floor", "The side z = 0."),
     fluid_side("lid", "The far side along z."),
-    Key::required("density", Kind::Quantity(D::DENSITY), "Density of the fluid.").with(NON_NEGATIVE),
-    Key::required("viscosity", Kind::Quantity(D::VISCOSITY), "Dynamic viscosity of the fluid.")
-        .with(POSITIVE),
 ];
+
+/// The same with the numerics of the grid.
+static FLUID_KEYS: LazyLock<Vec<Key>> =
+    LazyLock::new(|| FLUID.iter().chain(brazilnut_fluid::keys::KEYS).copied().collect());
 
 /// `[time]`
 pub const TIME: &[Key] = &[
@@ -333,8 +317,6 @@ pub const LIMITS: &[Key] = &[
         "Largest mismatch of the energy ledger over the work put in.",
     )
     .with(POSITIVE),
-    Key::default("courant", Kind::Quantity(D::NONE), "1.0", "Largest Courant number of the fluid.")
-        .with(POSITIVE),
     Key::default("every", Kind::Integer, "100", "Steps between two checks.").with(POSITIVE),
 ];
 
@@ -364,7 +346,7 @@ pub fn root() -> Vec<Key> {
         Key::default("walls", table(WALLS), "{}", "What the sides of the cell are made of."),
         Key::optional("obstacles", Kind::Tables(OBSTACLE), "Solid boxes inside the cell."),
         Key::default("contact", table(CONTACT), "{}", "Laws and constants of contacts."),
-        Key::optional("fluid", table(FLUID), "The fluid that fills the cell."),
+        Key::optional("fluid", table(FLUID_KEYS.as_slice()), "The fluid that fills the cell."),
         Key::optional("time", table(TIME), "Time step, settling and end."),
         Key::default("output", table(OUTPUT), "{}", "What is written."),
         Key::default("limits", table(LIMITS), "{}", "Guards against a run that means nothing any more."),
@@ -394,6 +376,9 @@ pub fn root() -> Vec<Key> {
 /// Tables of the rungs that bring their own keys.
 const RUNGS: &[(&str, &[Key])] = &[
     ("navier-stokes", brazilnut_coupling::averaged::KEYS),
+    ("particle-template", resolved::TEMPLATE_KEYS),
+    ("fluid-springs", resolved::SPRINGS_KEYS),
+    ("direct-forcing", resolved::FORCING_KEYS),
     ("plug", brazilnut_bed::plug::KEYS),
     ("coupled-columns", brazilnut_bed::coupled_columns::KEYS),
     ("brazil-nut-column", brazilnut_bed::brazil_nut::KEYS),

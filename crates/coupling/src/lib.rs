@@ -9,10 +9,13 @@ pub mod averaged;
 pub mod body;
 pub mod coupling;
 pub mod load;
+pub mod menu;
 pub mod one_way;
 pub mod resolved;
+pub mod sheet;
 pub mod spec;
 pub mod state;
+pub mod step;
 pub mod still;
 pub mod transfer;
 

@@ -32,7 +32,8 @@ impl Seen<'_> {
             between(r[a] / g.spacing[a] - shift[a], g.cells[a] as isize - 1)
         };
         let [(i, wx), (j, wy), (k, wz)] = [axis(0), axis(1), axis(2)];
-        let line = |j, k| if wx == 0.0 { at(i, j, k) } else { (1.0 - wx) * at(i, j, k) + wx * at(i + 1, j, k) };
+        let line =
+            |j, k| if wx == 0.0 { at(i, j, k) } else { (1.0 - wx) * at(i, j, k) + wx * at(i + 1, j, k) };
         let plane = |k| if wy == 0.0 { line(j, k) } else { (1.0 - wy) * line(j, k) + wy * line(j + 1, k) };
         if wz == 0.0 { plane(k) } else { (1.0 - wz) * plane(k) + wz * plane(k + 1) }
     }

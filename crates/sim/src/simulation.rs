@@ -1,16 +1,16 @@
 //! A run: its plan, its state, and the scratch of the engines.
 
-use crate::plan::{Action, Medium, Plan, Settle, Shaken};
 use crate::flow_view::Seen;
+use crate::plan::{Action, Medium, Plan, Settle, Shaken};
 use crate::state::{Stage, State};
 use crate::step::Engines;
 use crate::{step, view};
 use brazilnut_base::motion::Moved;
 use brazilnut_base::parallel::sum;
 use brazilnut_base::{Blowup, Cell, Tick, Vec3};
-use brazilnut_grains::{ContactView, Dem, DemSpec, Grains, Ledger, Partner, SpecError};
 use brazilnut_coupling::{Coupling, CouplingSpec};
 use brazilnut_fluid::Solver;
+use brazilnut_grains::{ContactView, Dem, DemSpec, Grains, Ledger, Partner, SpecError};
 use brazilnut_observe::{ContactAt, FlowView, FluidAt, View, WallAt};
 
 /// Whether there is more to do.
@@ -301,16 +301,21 @@ impl Simulation {
             dem.contacts(grains, |c| scratch.contacts.push(contact(c, &scratch.grains, &plan.cell)));
         }
         match (&plan.medium, &*coupling) {
-            (Medium::SimpleDrag(d), _) => d.drag_forces(porosity.as_ref(), &scratch.grains, &mut scratch.drag),
+            (Medium::SimpleDrag(d), _) => {
+                d.drag_forces(porosity.as_ref(), &scratch.grains, &mut scratch.drag)
+            }
             (_, Some(c)) => {
                 scratch.drag.clear();
                 scratch.drag.extend(c.loads.iter().map(|l| l.force));
             }
             _ => {}
         }
-        let resolved = matches!(&plan.medium, Medium::Coupled(c, _) if !matches!(**c, CouplingSpec::Averaged(_)));
+        let resolved =
+            matches!(&plan.medium, Medium::Coupled(c, _) if !matches!(**c, CouplingSpec::Averaged(_)));
         let seen = match (solver, flow) {
-            (Some(s), Some(flow)) => Some(Seen { flow, grid: s.grid(), resolved, porosity: porosity.as_ref() }),
+            (Some(s), Some(flow)) => {
+                Some(Seen { flow, grid: s.grid(), resolved, porosity: porosity.as_ref() })
+            }
             _ => None,
         };
         let ledger = view::ledger(&view::since(&dem.ledger(grains), before));
@@ -401,7 +406,9 @@ fn contact(c: &ContactView, grains: &Grains, cell: &Cell) -> ContactAt {
 
 /// The fluid solver, where the plan has a flow.
 fn solver(plan: &Plan) -> Result<Option<Solver>, SpecError> {
-    plan.flow().map(|f| Solver::new(f.clone()).map_err(|e| SpecError::new("fluid", e.to_string()))).transpose()
+    plan.flow()
+        .map(|f| Solver::new(f.clone()).map_err(|e| SpecError::new("fluid", e.to_string())))
+        .transpose()
 }
 
 /// The grains with the mass that the coupling leaves to the engine.

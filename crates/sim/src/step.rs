@@ -2,9 +2,11 @@
 
 use crate::plan::{Medium, Plan, Shaken};
 use crate::state::State;
+use brazilnut_base::motion::Motion;
 use brazilnut_base::{Tick, Vec3};
 use brazilnut_bed::with_bed_law;
 use brazilnut_coupling::one_way::Porosity;
+use brazilnut_coupling::step::{Beads, Stream, step as step_both};
 use brazilnut_coupling::{Coupling, SimpleDrag, Still};
 use brazilnut_fluid::Solver;
 use brazilnut_grains::{Dem, Grains};
@@ -74,22 +76,14 @@ fn fluid(plan: &Plan, engines: &mut Engines, state: &mut State, tick: Tick) {
     solver.advance(flow, tick, body, &brazilnut_fluid::Medium::default(), |_| ());
 }
 
-/// Grains and flow: map, step the fluid, hand back, sub-step the grains.
+/// Grains and flow.
 fn coupled(plan: &Plan, engines: &mut Engines, state: &mut State, grains: &mut Grains, tick: Tick) {
     let Engines { dem, solver: Some(solver), coupling: Some(coupling) } = engines else { return };
     let (Some(flow), Some(shared)) = (&mut state.flow, &mut state.coupling) else { return };
-    dem.export(&state.dem, grains);
-    coupling.before_fluid(grains, flow, shared);
-    {
-        let (mut during, medium) = coupling.parts();
-        let body = still(plan, tick.time).modified_gravity();
-        solver.advance(flow, tick, body, medium, |predicted| during.act(grains, predicted));
-    }
-    coupling.after_fluid(grains, flow, shared, tick.dt);
-    for k in 0..plan.clock.substeps {
-        let sub = tick.substep(k, plan.clock.substeps);
-        if let Some(field) = coupling.held(shared, still(plan, sub.time)) {
-            dem.advance(&mut state.dem, sub, &field);
-        }
-    }
+    let at_rest = Motion::default();
+    let frame = if plan.shaken == Shaken::Cell { &plan.shaking } else { &at_rest };
+    let mut beads = Beads { dem, state: &mut state.dem, grains };
+    let mut stream = Stream { solver, flow };
+    let substeps = plan.clock.substeps;
+    step_both(coupling, shared, &mut beads, &mut stream, tick, substeps, plan.gravity, frame);
 }

@@ -3,6 +3,7 @@
 pub mod forcing;
 pub mod leak;
 pub mod lubrication;
+pub mod menu;
 pub mod schedule;
 pub mod springs;
 pub mod sweep;
@@ -15,3 +16,7 @@ pub use leak::Leak;
 pub use springs::{Inertia, SpringBody, Springs, Strength};
 pub use tracers::{LAYOUTS, Layout, Template, Templates};
 pub use work::TracerWork;
+
+/// Default depth of the outermost shell below the surface, in grid spacings: with it the drag of a dilute
+/// array of spheres (solid fraction 0.064) is that of Zick & Homsy 1982 at viscous numbers nu dt/h² near 0.02.
+pub const RETRACTION: f64 = 0.4;

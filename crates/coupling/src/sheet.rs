@@ -1,0 +1,251 @@
+//! The start-up sheet: what the coupling's numbers mean, and what cannot work.
+
+use crate::resolved::{Inertia, Springs, Templates, leak};
+use crate::spec::{CouplingSpec, Method, Resolved};
+use brazilnut_fluid::Grid;
+
+/// One kind of grain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Population {
+    /// Name of the species.
+    pub name: String,
+    /// Full mass of a mean grain, kg.
+    pub mass: f64,
+    /// Mean radius, m.
+    pub radius: f64,
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Number of grains.
+    pub count: usize,
+}
+
+/// What a check prints about the coupling.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sheet {
+    /// Name and value.
+    pub lines: Vec<(String, String)>,
+    /// What cannot work, with a remedy.
+    pub refusals: Vec<String>,
+    /// What may surprise.
+    pub warnings: Vec<String>,
+}
+
+/// Below this density ratio direct forcing of a full mass is unstable (Kempe & Fröhlich 2012).
+const LIGHTEST_FORCED: f64 = 0.3;
+/// From this porosity ratio on an explicit exchange of added mass overshoots.
+const ADDED_MASS: f64 = 1.0;
+/// Porosity of a random packing (Clément 2.4.1).
+const PACKED: f64 = 0.42;
+
+impl Sheet {
+    /// For steps of length `dt` (s) and a shake of `frequency` (Hz).
+    #[must_use]
+    pub fn new(
+        spec: &CouplingSpec,
+        grid: Option<&Grid>,
+        populations: &[Population],
+        dt: f64,
+        frequency: Option<f64>,
+    ) -> Self {
+        let mut sheet = Self::default();
+        match (spec, grid) {
+            (CouplingSpec::Averaged(a), Some(grid)) => {
+                sheet.averaged(a.density, grid, populations);
+                sheet.line("exchange", "model A, equal and opposite; porosity floor".into());
+                sheet.line("porosity floor", format!("{}", a.porosity_floor));
+            }
+            (CouplingSpec::Resolved(r), Some(grid)) => {
+                sheet.resolved(r, grid, populations, dt, frequency);
+            }
+            _ => {}
+        }
+        sheet
+    }
+
+    fn line(&mut self, name: impl Into<String>, value: String) {
+        self.lines.push((name.into(), value));
+    }
+
+    fn averaged(&mut self, density: f64, grid: &Grid, populations: &[Population]) {
+        for p in populations {
+            let h = crate::resolved::tracers::spacing(grid);
+            let cells = 2.0 * p.radius / h;
+            self.line(format!("diameter of {} over grid spacing", p.name), format!("{cells:.3}"));
+            if cells > 1.0 {
+                self.warnings.push(format!(
+                    "{} are larger than a grid cell: a bed equation means little there; coarsen the grid or use a resolved rung",
+                    p.name
+                ));
+            }
+            let ratio = density * (1.0 - PACKED) / (p.density * PACKED);
+            if ratio >= ADDED_MASS {
+                self.refusals.push(format!(
+                    "{} are too light for `navier-stokes`: in a packed bed the added mass is {ratio:.2} times the grain's and the explicit exchange overshoots; use `direct-forcing`",
+                    p.name
+                ));
+            }
+        }
+    }
+
+    fn resolved(
+        &mut self,
+        spec: &Resolved,
+        grid: &Grid,
+        populations: &[Population],
+        dt: f64,
+        frequency: Option<f64>,
+    ) {
+        let radii: Vec<f64> = populations.iter().map(|p| p.radius).collect();
+        let templates = Templates::new(grid, spec.body, &radii, spec.layout, spec.retraction);
+        let h = crate::resolved::tracers::spacing(grid);
+        let viscous = spec.viscosity / spec.density * dt / (h * h);
+        self.line("viscous number nu dt/h²", format!("{viscous:.2e}"));
+        for (k, p) in populations.iter().enumerate() {
+            self.line(format!("points per radius of {}", p.name), format!("{:.2}", p.radius / h));
+            if p.radius / h < 2.0 {
+                self.warnings.push(format!(
+                    "{} have fewer than two grid cells per radius: their flow is not resolved",
+                    p.name
+                ));
+            }
+            let tracers = templates.fit(k).0.points.len();
+            match spec.method {
+                Method::Template => self.template(p, spec.density),
+                Method::Springs(s) => {
+                    self.line(format!("tracers of {}", p.name), tracers.to_string());
+                    self.springs(spec, &s, p, tracers, grid, dt, frequency);
+                }
+                Method::Forcing(f) => {
+                    self.line(format!("tracers of {}", p.name), tracers.to_string());
+                    self.line("sweeps", f.sweeps.to_string());
+                    if p.density < LIGHTEST_FORCED * spec.density {
+                        self.refusals.push(format!(
+                            "{} are too light for `direct-forcing`, which is stable down to {LIGHTEST_FORCED} of the fluid's density",
+                            p.name
+                        ));
+                    }
+                }
+            }
+        }
+        if let Some(l) = &spec.lubrication {
+            self.line("lubrication", format!("on, gaps {:.2e} to {:.2e} m", l.min_gap, l.max_gap));
+        }
+    }
+
+    fn template(&mut self, p: &Population, density: f64) {
+        if p.density <= density {
+            self.refusals.push(format!(
+                "{} are no denser than the fluid: the explicit force of `particle-template` overshoots; use `direct-forcing`",
+                p.name
+            ));
+        }
+    }
+
+    fn springs(
+        &mut self,
+        spec: &Resolved,
+        springs: &Springs,
+        p: &Population,
+        tracers: usize,
+        grid: &Grid,
+        dt: f64,
+        frequency: Option<f64>,
+    ) {
+        let body = spec.spring_body(p.mass, p.radius, tracers, grid.cell_volume());
+        if body.template_mass <= 0.0 {
+            self.refusals.push(format!(
+                "{} are no denser than the fluid: their template has no mass; use `direct-forcing`",
+                p.name
+            ));
+            return;
+        }
+        let (alpha, tau) = (springs.alpha(&body, dt), springs.relaxation_time(&body, dt));
+        self.line(format!("slip of {} removed per step, alpha", p.name), format!("{alpha:.3}"));
+        self.line(format!("relaxation time of {}, tau", p.name), format!("{tau:.3e} s"));
+        if let Some(f) = frequency {
+            self.line(format!("tau f of {}", p.name), format!("{:.3}", tau * f));
+            if tau * f > leak::WARNING {
+                self.warnings.push(format!(
+                    "{} are nearly transparent: their slip decays in {:.2} of a shake; lower `relaxation_time`",
+                    p.name,
+                    tau * f
+                ));
+            }
+        }
+        let stiffness = springs.stiffness(&body, dt);
+        let carried = if springs.inertia == Inertia::Template { "template" } else { "grain" };
+        self.line(format!("stiffness of {} (stable below 2)", p.name), format!("{stiffness:.3}"));
+        if stiffness >= 2.0 {
+            self.refusals.push(format!(
+                "the springs of {} are unstable: a step takes {stiffness:.2} of the slip away from fluid and {carried} (limit 2); raise `relaxation_time` or shorten the step",
+                p.name
+            ));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::Body;
+    use crate::resolved::{Forcing, Layout, Strength};
+    use crate::transfer::KernelName;
+    use brazilnut_base::Side;
+
+    fn population(density: f64) -> Population {
+        let radius = 350e-6;
+        let mass = density * Body::Sphere.volume(radius);
+        Population { name: "beads".into(), mass, radius, density, count: 600 }
+    }
+
+    fn sheet(method: Method, density: f64, dt: f64) -> Sheet {
+        let spec = Resolved {
+            method,
+            kernel: KernelName::Trilinear,
+            layout: Layout::Lattice,
+            retraction: 0.0,
+            lubrication: None,
+            density: 1000.0,
+            viscosity: 8.91e-4,
+            body: Body::Sphere,
+        };
+        let h = 350e-6 / 3.0;
+        let grid = Grid::new([36, 36, 256], [h; 3], [Side::Periodic, Side::Periodic, Side::Walls]);
+        Sheet::new(&CouplingSpec::Resolved(spec), Some(&grid), &[population(density)], dt, Some(20.0))
+    }
+
+    fn springs(c: f64) -> Method {
+        Method::Springs(Springs {
+            strength: Strength::Cs(c),
+            damping: 0.0,
+            inertia: Inertia::Template,
+        })
+    }
+
+    #[test]
+    fn published_thrown_bed_passes_and_its_meaning_is_printed() {
+        let s = sheet(springs(0.5), 2500.0, 1e-5);
+        assert!(s.refusals.is_empty() && s.warnings.is_empty(), "{s:?}");
+        assert!(s.lines.iter().any(|(k, _)| k.contains("tau")));
+    }
+
+    #[test]
+    fn what_is_unstable_is_refused() {
+        assert_eq!(sheet(springs(2.5), 2500.0, 1e-5).refusals.len(), 1, "alpha beyond 2");
+        assert_eq!(sheet(springs(0.5), 1000.0, 1e-5).refusals.len(), 1, "no template mass");
+        assert_eq!(sheet(springs(1.5), 1010.0, 1e-5).refusals.len(), 1, "barely heavy");
+        assert_eq!(sheet(Method::Template, 1000.0, 1e-5).refusals.len(), 1);
+        assert!(sheet(Method::Forcing(Forcing { sweeps: 3 }), 500.0, 1e-5).refusals.is_empty());
+        assert_eq!(sheet(Method::Forcing(Forcing { sweeps: 3 }), 200.0, 1e-5).refusals.len(), 1);
+    }
+
+    #[test]
+    fn leaky_springs_warn() {
+        let slow = Method::Springs(Springs {
+            strength: Strength::RelaxationTime(50e-3),
+            damping: 0.0,
+            inertia: Inertia::Template,
+        });
+        assert_eq!(sheet(slow, 7750.0, 1e-4).warnings.len(), 1);
+    }
+}
