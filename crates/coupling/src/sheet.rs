@@ -215,11 +215,7 @@ mod tests {
     }
 
     fn springs(c: f64) -> Method {
-        Method::Springs(Springs {
-            strength: Strength::Cs(c),
-            damping: 0.0,
-            inertia: Inertia::Template,
-        })
+        Method::Springs(Springs { strength: Strength::Cs(c), damping: 0.0, inertia: Inertia::Template })
     }
 
     #[test]

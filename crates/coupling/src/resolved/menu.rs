@@ -106,9 +106,14 @@ impl Resolved {
                     (Some(c), None) => Strength::Cs(c),
                     (None, Some(tau)) => Strength::RelaxationTime(tau),
                     (Some(_), Some(_)) => {
-                        return Err(("c_s", "`c_s` and `relaxation_time` say the same twice: keep one".into()));
+                        return Err((
+                            "c_s",
+                            "`c_s` and `relaxation_time` say the same twice: keep one".into(),
+                        ));
                     }
-                    (None, None) => return Err(("c_s", "give `relaxation_time`, or `c_s` as published".into())),
+                    (None, None) => {
+                        return Err(("c_s", "give `relaxation_time`, or `c_s` as published".into()));
+                    }
                 },
                 damping: values.number("damping"),
                 inertia: if values.text("inertia") == "full" { Inertia::Full } else { Inertia::Template },
