@@ -27,12 +27,6 @@ pub const KEYS: &[Key] = &[
     Key::default("scheme", Kind::Choice(SCHEMES), "\"second-order\"", "Time stepping."),
     Key::default("advection", Kind::Choice(ADVECTIONS), "\"central\"", "Advection."),
     Key::default("diffusion", Kind::Choice(DIFFUSIONS), "\"explicit\"", "Viscous diffusion."),
-    Key::optional(
-        "step",
-        Kind::Quantity(Dimension::TIME),
-        "Length of a fluid step. Without it, half the smallest of the stable steps.",
-    )
-    .with(Check::Positive),
     Key::default(
         "courant_limit",
         Kind::Quantity(Dimension::NONE),
