@@ -175,7 +175,8 @@ impl General {
                     // The far face of a periodic direction is the near one: a mixture need not repeat it.
                     let span = if shape.side[level] == Side::Periodic { n[level] * s } else { 0 };
                     for (i, f) in row.iter_mut().enumerate() {
-                        let far = if [i, j, k][level] + 1 == n[level] { at + i + s - span } else { at + i + s };
+                        let far =
+                            if [i, j, k][level] + 1 == n[level] { at + i + s - span } else { at + i + s };
                         *f += c * (flux(far) - flux(at + i));
                         fastest = fastest.max(star[level][at + i].abs() / shape.h[level]);
                     }

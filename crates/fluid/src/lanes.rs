@@ -80,6 +80,28 @@ fn avx2<K: Kernel>(kernel: K) {
     kernel.run(Lanes::<4, true>(()));
 }
 
+/// Returns the result of one vector instruction where the lanes have it.
+///
+/// Plain code over arrays usually becomes the same instruction, but not reliably.
+macro_rules! native {
+    ($wide:ident, $half:ident, $($x:ident),+) => {
+        #[cfg(target_arch = "x86_64")]
+        #[allow(unsafe_code, reason = "vector instructions; the lanes prove that the processor has them")]
+        if FUSED && (W == 8 || W == 4) {
+            use std::arch::x86_64::*;
+            let mut out = [0.0; W];
+            if W == 8 {
+                // SAFETY: fused lanes of eight exist only where AVX-512 does; every array holds eight numbers.
+                unsafe { _mm512_storeu_pd(out.as_mut_ptr(), $wide($(_mm512_loadu_pd($x.as_ptr())),+)) };
+            } else {
+                // SAFETY: fused lanes of four exist only where AVX2 and FMA do; every array holds four numbers.
+                unsafe { _mm256_storeu_pd(out.as_mut_ptr(), $half($(_mm256_loadu_pd($x.as_ptr())),+)) };
+            }
+            return out;
+        }
+    };
+}
+
 impl<const W: usize, const FUSED: bool> Lanes<W, FUSED> {
     /// The path that leads to these lanes.
     #[inline(always)]
@@ -100,31 +122,43 @@ impl<const W: usize, const FUSED: bool> Lanes<W, FUSED> {
     /// a b + c in every lane.
     #[inline(always)]
     pub fn vmadd(self, a: [f64; W], b: [f64; W], c: [f64; W]) -> [f64; W] {
+        native!(_mm512_fmadd_pd, _mm256_fmadd_pd, a, b, c);
         std::array::from_fn(|l| self.madd(a[l], b[l], c[l]))
     }
 
     /// a b - c in every lane.
     #[inline(always)]
     pub fn vmsub(self, a: [f64; W], b: [f64; W], c: [f64; W]) -> [f64; W] {
+        native!(_mm512_fmsub_pd, _mm256_fmsub_pd, a, b, c);
         std::array::from_fn(|l| self.madd(a[l], b[l], -c[l]))
     }
 
     /// a + b in every lane.
     #[inline(always)]
     pub fn add(self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+        native!(_mm512_add_pd, _mm256_add_pd, a, b);
         std::array::from_fn(|l| a[l] + b[l])
     }
 
     /// a - b in every lane.
     #[inline(always)]
     pub fn sub(self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+        native!(_mm512_sub_pd, _mm256_sub_pd, a, b);
         std::array::from_fn(|l| a[l] - b[l])
     }
 
     /// a b in every lane.
     #[inline(always)]
     pub fn mul(self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+        native!(_mm512_mul_pd, _mm256_mul_pd, a, b);
         std::array::from_fn(|l| a[l] * b[l])
+    }
+
+    /// a / b in every lane.
+    #[inline(always)]
+    pub fn div(self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+        native!(_mm512_div_pd, _mm256_div_pd, a, b);
+        std::array::from_fn(|l| a[l] / b[l])
     }
 
     /// The first `W` of `row`.

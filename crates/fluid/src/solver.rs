@@ -8,6 +8,7 @@ use crate::grid::Grid;
 use crate::inflow;
 use crate::lanes::Path;
 use crate::medium::Medium;
+use crate::momentum::implicit::Systems;
 use crate::pressure::{Convergence, Poisson, Transforms};
 use crate::shape::Shape;
 use crate::spec::{FluidSpec, SpecError};
@@ -31,6 +32,8 @@ pub struct Solver {
     pub(crate) peaks: Vec<f64>,
     /// Whether `peaks` holds for the flow at hand.
     pub(crate) watched: bool,
+    /// Systems of the implicit diffusion.
+    pub(crate) systems: Systems,
     /// What obstacles and media need, made when first asked for.
     pub(crate) general: Option<Box<General>>,
 }
@@ -71,6 +74,7 @@ impl Solver {
             peaks: vec![0.0; shape.n[2]],
             watched: false,
             general: None,
+            systems: Systems::default(),
             shape,
             poisson,
             spec,

@@ -157,6 +157,10 @@ impl FluidSpec {
                 format!("solid {:?}..{:?} is no box or plate in the grid", s.low, s.high),
             );
         }
+        require(
+            self.solids.is_empty() || self.diffusion == Diffusion::Explicit,
+            "implicit diffusion around solids is not available; use explicit diffusion".into(),
+        );
         if let Some(&axis) = open.first() {
             self.grid.line_axis = axis;
         }

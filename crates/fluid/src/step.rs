@@ -8,10 +8,11 @@ use crate::ghosts;
 use crate::inflow;
 use crate::medium::Medium;
 use crate::momentum::advection::Factors;
+use crate::momentum::implicit::{prepare, smooth};
 use crate::momentum::predict::{Recipe, predict};
 use crate::project::{End, Projection};
 use crate::solver::{Predicted, Solver};
-use crate::spec::{FluidSpec, Scheme};
+use crate::spec::{Diffusion, FluidSpec, Scheme};
 use brazilnut_base::{Side, Tick, Vec3};
 
 /// Predict, let a coupling change the prediction, project.
@@ -26,6 +27,9 @@ pub(crate) fn advance(
     let recipe = recipe(solver, flow, tick, body);
     let general = solver.needs_general(medium);
     predict_velocity(solver, flow, tick, &recipe);
+    if recipe.apart > 0.0 {
+        diffuse(solver, flow, tick);
+    }
     if general {
         around_solids(solver, flow, &recipe);
         resist(solver, medium, tick.dt);
@@ -68,6 +72,7 @@ fn recipe(solver: &Solver, flow: &Flow, tick: Tick, body: Vec3) -> Recipe {
         body: [0, 1, 2].map(|l| if shape.side[l] == Side::Flat { 0.0 } else { driving[shape.axis[l]] }),
         weights: [tick.dt * (1.0 + extrapolated), tick.dt * extrapolated],
         pressure: shape.h.map(|h| if second { tick.dt / (spec.density * h) } else { 0.0 }),
+        apart: if spec.diffusion == Diffusion::Implicit && nu > 0.0 { tick.dt } else { 0.0 },
         open_end: matches!(spec.side(shape.axis[0], 1), Some(Boundary::Outflow { .. })),
     }
 }
@@ -89,6 +94,19 @@ fn predict_velocity(solver: &mut Solver, flow: &mut Flow, tick: Tick, recipe: &R
         solver.star.in_order_mut(order),
         past,
     );
+}
+
+/// Makes the diffusion in the prediction implicit.
+fn diffuse(solver: &mut Solver, flow: &Flow, tick: Tick) {
+    let (spec, shape) = (&solver.spec, &solver.shape);
+    let jump = |component: usize, level: usize, end: usize| {
+        let Boundary::MovingLid { motion, .. } = &spec.sides[shape.axis[level]][end] else { return 0.0 };
+        (motion.at(tick.end()).velocity - motion.at(tick.time).velocity)[shape.axis[component]]
+    };
+    let a = 0.5 * spec.kinematic_viscosity() * tick.dt;
+    prepare(&mut solver.systems, spec, shape, a, jump);
+    let (v, star) = (flow.velocity.in_order(shape.axis), solver.star.in_order_mut(shape.axis));
+    smooth(solver.path, solver.poisson.parallel, shape, &solver.systems, v, star);
 }
 
 fn project(solver: &mut Solver, flow: &mut Flow, tick: Tick) {

@@ -2,7 +2,8 @@
 
 use brazilnut_base::{Side, Tick, Vec3, vec3};
 use brazilnut_fluid::{
-    Advection, Boundary, CellField, Flow, FluidSpec, Grid, Instructions, Medium, Profile, Scheme, Solver,
+    Advection, Boundary, CellField, Diffusion, Flow, FluidSpec, Grid, Instructions, Medium, Profile, Scheme,
+    Solver,
 };
 
 /// A reproducible number in -1..1 for each place.
@@ -77,8 +78,12 @@ fn divergence_vanishes_for_every_mix_of_sides_and_numerics() {
     for base in specs() {
         for scheme in [Scheme::FirstOrder, Scheme::SecondOrder] {
             for advection in [Advection::Central, Advection::Koren, Advection::None] {
-                for instructions in [Instructions::Best, Instructions::Portable] {
-                    let spec = FluidSpec { scheme, advection, instructions, ..base.clone() };
+                for (instructions, diffusion) in [
+                    (Instructions::Best, Diffusion::Explicit),
+                    (Instructions::Portable, Diffusion::Explicit),
+                    (Instructions::Best, Diffusion::Implicit),
+                ] {
+                    let spec = FluidSpec { scheme, advection, instructions, diffusion, ..base.clone() };
                     let mut solver = Solver::new(spec).unwrap();
                     let mut flow = solver.start();
                     stir(&solver, &mut flow, 1.0);
@@ -149,6 +154,7 @@ fn same_bits_for_any_number_of_threads_and_across_a_pause() {
     for (cells, sides) in [
         ([24, 20, 28], [Walls, Periodic, Walls]),
         ([24, 20, 22], [Periodic, Periodic, Periodic]),
+        ([24, 20, 28], [Periodic, Walls, Walls]),
         ([128, 1, 90], [Walls, Flat, Walls]),
     ] {
         for scheme in [Scheme::FirstOrder, Scheme::SecondOrder] {

@@ -1,5 +1,6 @@
 //! The momentum equation without its new pressure.
 
 pub(crate) mod advection;
+pub(crate) mod implicit;
 pub(crate) mod predict;
 pub(crate) mod rates;

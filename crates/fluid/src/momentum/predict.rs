@@ -28,6 +28,8 @@ pub(crate) struct Recipe {
     pub weights: [f64; 2],
     /// dt / (rho h) of each level for the known pressure, zero where it plays no part.
     pub pressure: [f64; 3],
+    /// Length of the step if diffusion is kept apart from the extrapolated rates, s; else zero.
+    pub apart: f64,
     /// The open end of level 0 whose last face is predicted too.
     pub open_end: bool,
 }
@@ -131,7 +133,8 @@ impl Predict<'_, '_> {
         rate: &mut [f64],
     ) {
         let (shape, recipe, n) = (self.shape, self.recipe, rate.len());
-        row_rates(l, flux, self.v, shape, c, p, &recipe.factors, recipe.body[c], rate);
+        let kept = if recipe.apart > 0.0 { &advection_only(&recipe.factors) } else { &recipe.factors };
+        row_rates(l, flux, self.v, shape, c, p, kept, recipe.body[c], rate);
         let [a, b] = recipe.weights;
         let v = &self.v[c][p..p + n];
         let star = &mut self.block.star[c][out..out + n];
@@ -139,15 +142,26 @@ impl Predict<'_, '_> {
             for i in 0..n {
                 star[i] = l.madd(a, rate[i], v[i]);
             }
-            return;
+        } else {
+            let past = &mut self.block.past[c][out..out + n];
+            let (ahead, behind) = (&self.p[p..p + n], &self.p[p - shape.stride[c]..][..n]);
+            let q = recipe.pressure[c];
+            for i in 0..n {
+                let pushed = l.madd(-q, ahead[i] - behind[i], v[i]);
+                star[i] = l.madd(a, rate[i], l.madd(-b, past[i], pushed));
+                past[i] = rate[i];
+            }
         }
-        let past = &mut self.block.past[c][out..out + n];
-        let (ahead, behind) = (&self.p[p..p + n], &self.p[p - shape.stride[c]..][..n]);
-        let q = recipe.pressure[c];
-        for i in 0..n {
-            let pushed = l.madd(-q, ahead[i] - behind[i], v[i]);
-            star[i] = l.madd(a, rate[i], l.madd(-b, past[i], pushed));
-            past[i] = rate[i];
+        if recipe.apart > 0.0 {
+            row_rates(l, Still, self.v, shape, c, p, &recipe.factors, 0.0, rate);
+            for i in 0..n {
+                star[i] = l.madd(recipe.apart, rate[i], star[i]);
+            }
         }
     }
+}
+
+/// The factors without viscosity.
+fn advection_only(factors: &[Factors; 3]) -> [Factors; 3] {
+    factors.map(|f| Factors { diffusion: 0.0, ..f })
 }

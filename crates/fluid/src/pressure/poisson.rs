@@ -137,6 +137,23 @@ impl Poisson {
         self.each_plane(&mut data[..n * self.block.plane], Direction::Inverse);
     }
 
+    #[cfg(test)]
+    pub(crate) fn stage(&self, data: &mut [f64], stage: usize) {
+        let n = self.cells[2] * self.block.plane;
+        match stage {
+            0 => self.each_plane(&mut data[..n], Direction::Forward),
+            1 | 3 => {
+                let d = if stage == 1 { Direction::Forward } else { Direction::Inverse };
+                for_each_slab(data, self.block, Cut::Row, self.parallel, |s, slab| {
+                    dispatch(self.path, SlabKernel { poisson: self, s, slab, what: Part::Transform(d) });
+                });
+            }
+            _ => for_each_slab(data, self.block, Cut::Row, self.parallel, |s, slab| {
+                dispatch(self.path, SlabKernel { poisson: self, s, slab, what: Part::Lines });
+            }),
+        }
+    }
+
     fn each_plane(&self, data: &mut [f64], direction: Direction) {
         use rayon::prelude::*;
         let work = |plane: &mut [f64]| dispatch(self.path, PlaneKernel { poisson: self, plane, direction });
@@ -292,7 +309,7 @@ impl Kernel for SlabKernel<'_, '_> {
             transform(l, &p.plans[1], self.slab, width, Direction::Forward);
         }
         if let Part::All | Part::Lines = self.what {
-            let (j, k0) = if matches!(self.what, Part::All) { (self.s, 0) } else { (0, 8 * self.s) };
+            let (j, k0) = if p.block.rows > 1 { (self.s, 0) } else { (0, 8 * self.s) };
             let mut scratch = Scratch::take(p.lines.scratch(W) + p.cells[0].next_multiple_of(8));
             for first in (0..self.slab.count()).step_by(W) {
                 p.solve_lines(l, self.slab, (j, k0 + first), first, scratch.as_mut());

@@ -18,16 +18,18 @@ pub enum End {
     Slope,
     /// Zero at the wall, half a cell from the last centre: +1.
     Value,
+    /// Zero one spacing beyond the last point: 0.
+    Fixed,
     /// The line closes on itself.
     Periodic,
 }
 
 impl End {
-    fn diagonal(self) -> f64 {
+    pub fn diagonal(self) -> f64 {
         match self {
             Self::Slope => -1.0,
             Self::Value => 1.0,
-            Self::Periodic => 0.0,
+            Self::Fixed | Self::Periodic => 0.0,
         }
     }
 }
@@ -51,7 +53,7 @@ fn settled_after(b: f64) -> usize {
 }
 
 /// The root r <= 1 of r + 1/r = b.
-fn decay(b: f64) -> f64 {
+pub(crate) fn decay(b: f64) -> f64 {
     2.0 / (b + ((b - 2.0) * (b + 2.0)).max(0.0).sqrt())
 }
 
@@ -116,11 +118,12 @@ impl Lines {
         let settle = settled_after(smallest).min(n - 1).max(1);
         let [low, high] = self.ends.map(End::diagonal);
         let s = [scale; W];
-        let mut factor: [f64; W] = std::array::from_fn(|lane| 1.0 / (b[lane] + low));
+        let one = [1.0; W];
+        let mut factor = l.div(one, l.add(b, [low; W]));
         let mut y = l.mul(l.mul(g[0], s), factor);
         (g[0], c[0]) = (y, factor);
         for i in 1..settle {
-            factor = std::array::from_fn(|lane| 1.0 / (b[lane] - factor[lane]));
+            factor = l.div(one, l.sub(b, factor));
             y = l.mul(l.vmadd(g[i], s, y), factor);
             (g[i], c[i]) = (y, factor);
         }
