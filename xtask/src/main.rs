@@ -6,9 +6,11 @@ use std::time::Instant;
 /// Name, what it is for, the commands.
 type Task = (&'static str, &'static str, &'static [&'static [&'static str]]);
 
+/// In the order of `ci`; a command that does not start with a path is one of cargo.
 const TASKS: &[Task] = &[
     ("fmt", "formatting is as rustfmt wants it", &[&["fmt", "--all", "--check"]]),
     ("lint", "clippy finds nothing", &[&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]]),
+    ("tidy", "the rules of the house", &[&["test", "--package", "brazilnut", "--test", "tidy"]]),
     ("test", "all tests", &[&["test", "--workspace"]]),
     (
         "docs",
@@ -35,6 +37,11 @@ const TASKS: &[Task] = &[
             ],
         ],
     ),
+    (
+        "crash",
+        "runs killed at random moments resume to the same bytes",
+        &[&["build", "--release", "--package", "brazilnut"], &["scripts/crash-test", "3"]],
+    ),
 ];
 
 fn main() -> ExitCode {
@@ -51,13 +58,21 @@ fn main() -> ExitCode {
     for (name, _, commands) in chosen {
         for args in *commands {
             let start = Instant::now();
-            println!("--- {name}: cargo {}", args.join(" "));
-            let mut cargo = Command::new(env!("CARGO"));
-            let _ = cargo.args(*args);
+            let mut command = if args[0].contains('/') {
+                println!("--- {name}: {}", args.join(" "));
+                let mut script = Command::new(args[0]);
+                let _ = script.args(&args[1..]);
+                script
+            } else {
+                println!("--- {name}: cargo {}", args.join(" "));
+                let mut cargo = Command::new(env!("CARGO"));
+                let _ = cargo.args(*args);
+                cargo
+            };
             if *name == "docs" {
-                let _ = cargo.env("RUSTDOCFLAGS", "-D warnings");
+                let _ = command.env("RUSTDOCFLAGS", "-D warnings");
             }
-            match cargo.status() {
+            match command.status() {
                 Ok(s) if s.success() => {
                     println!("--- {name}: done in {:.0} s", start.elapsed().as_secs_f64())
                 }
@@ -66,7 +81,7 @@ fn main() -> ExitCode {
                     return ExitCode::FAILURE;
                 }
                 Err(e) => {
-                    eprintln!("--- {name}: cargo could not be started: {e}");
+                    eprintln!("--- {name}: could not be started: {e}");
                     return ExitCode::FAILURE;
                 }
             }
