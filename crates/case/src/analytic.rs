@@ -92,7 +92,7 @@ pub fn system(v: &Values) -> System {
         porosity: None,
         restitution: restitution(contact),
         wall_restitution: restitution(wall_pair).or_else(|| restitution(contact)),
-        intruder_density: intruder.clone().map(|k| k.density),
+        intruder_density: intruder.map(|k| k.density),
         intruder_diameter: intruder.map(|k| k.diameter),
     }
 }
