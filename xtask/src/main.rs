@@ -6,7 +6,7 @@ use std::time::Instant;
 /// Name, what it is for, the commands.
 type Task = (&'static str, &'static str, &'static [&'static [&'static str]]);
 
-/// In the order of `ci`; a command that does not start with a path is one of cargo.
+/// In the order of `ci`; a command whose first word has a slash is a script, any other one of cargo.
 const TASKS: &[Task] = &[
     ("fmt", "formatting is as rustfmt wants it", &[&["fmt", "--all", "--check"]]),
     ("lint", "clippy finds nothing", &[&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]]),
