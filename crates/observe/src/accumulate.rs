@@ -132,7 +132,9 @@ impl Batched {
         let b = n as f64;
         (0..outputs)
             .map(|k| {
-                let spread = (square[k] - mean[k] * mean[k] / b).max(0.0);
+                let spread = square[k] - mean[k] * mean[k] / b;
+                // Rounding may carry it below zero; what is not a number must stay so.
+                let spread = if spread < 0.0 { 0.0 } else { spread };
                 let error = if n < 2 { f64::NAN } else { ((b - 1.0) / b * spread).sqrt() };
                 Estimate { value: value[k], error }
             })

@@ -19,7 +19,11 @@ use serde::{Deserialize, Serialize};
 pub struct Series {
     sampling: Sampling,
     start: f64,
+    /// Means over whole cycles (over samples where they are no part of a cycle), column by column.
     columns: Vec<Blocking>,
+    /// Sums and counts of the cycle that is not full.
+    cycle: Vec<(f64, u32)>,
+    held: u64,
     batches: Batched,
     phases: Option<PhaseAverage>,
     spectrum: Option<Welch>,
@@ -42,6 +46,8 @@ impl Series {
             sampling,
             start: f64::NAN,
             columns: vec![Blocking::default(); columns],
+            cycle: vec![(0.0, 0); columns],
+            held: 0,
             batches: Batched::new(2 * columns, BATCHES, sampling.per_cycle.unwrap_or(1)),
             phases: per_cycle.map(|n| PhaseAverage::new(n as usize, sampling.phase, 2 * columns, CYCLES)),
             spectrum: segment.map(|n| Welch::new(columns, n)),
@@ -54,7 +60,17 @@ impl Series {
         if self.batches.rows() == 0 {
             self.start = time;
         }
-        self.columns.iter_mut().zip(row).for_each(|(b, &x)| b.add(x));
+        for (c, &x) in self.cycle.iter_mut().zip(row).filter(|(_, x)| x.is_finite()) {
+            *c = (c.0 + x, c.1 + 1);
+        }
+        self.held += 1;
+        if self.held == self.block() {
+            self.columns.iter_mut().zip(&mut self.cycle).for_each(|(b, c)| {
+                b.add(c.0 / f64::from(c.1));
+                *c = (0.0, 0);
+            });
+            self.held = 0;
+        }
         count(self.batches.open(), row);
         if let Some(p) = &mut self.phases {
             count(p.open(cycle), row);
@@ -65,6 +81,11 @@ impl Series {
         if let Some(c) = &mut self.correlogram {
             c.add(row);
         }
+    }
+
+    /// Samples behind one value of the means: a cycle, so that the shake itself is no scatter.
+    fn block(&self) -> u64 {
+        self.sampling.per_cycle.unwrap_or(1)
     }
 
     /// The tables, with the columns' names and units.
@@ -88,7 +109,7 @@ impl Series {
         let mut row = vec![];
         for (k, c) in columns.iter().enumerate() {
             let Estimate { value, error } = self.columns[k].mean();
-            let tau = self.columns[k].correlation_time() * self.sampling.interval;
+            let tau = self.columns[k].correlation_time() * self.block() as f64 * self.sampling.interval;
             for (tail, unit, x) in [
                 ("", c.unit.as_str(), value),
                 ("_error", c.unit.as_str(), error),

@@ -29,7 +29,7 @@ impl Observe for BasePressure {
         name: "base-pressure",
         summary: "Pressure on the base at places along it: fluid and grains apart, hydrostatic part removed.",
         formula: "fluid = p(base) - mean p(lid) (Pa), p without the hydrostatic part of gravity and of the shaken frame, mean over the depth of the cell; \
-                  where the fluid is at rest (simple-drag): -sum of the drag along z over the grains above the strip per area of the strip\n\
+                  where the fluid is at rest (simple-drag): sum of the drag along z on the grains above the strip per area of the strip, negative (underpressure) while the bed rises through the fluid\n\
                   grains = force of the grains on the floor in a strip of width `strip` about the place per area of the strip (Pa)\n\
                   fluid_mean, grains_mean: over the whole base",
         source: "Clément 2009, 3.2.1, Figs 3.1, 4.10, 4.11",
@@ -147,8 +147,9 @@ impl BasePressure {
         let inside = |r: &Vec3| r[self.axis] >= strip.0 && r[self.axis] < strip.1;
         let drag: f64 =
             view.grains.position.iter().zip(fluid.drag).filter(|(r, _)| inside(r)).map(|(_, d)| d.z).sum();
-        // Not `-drag`: an empty strip has the pressure 0, not -0.
-        (0.0 - drag) / area(view, self.axis, strip)
+        // What the grains give back to the fluid has only the base to rest on: a bed that rises is pulled
+        // down by the fluid and leaves an underpressure.
+        drag / area(view, self.axis, strip)
     }
 }
 
@@ -223,7 +224,7 @@ mod tests {
         let drag = [vec3(0.0, 0.0, -2.0), vec3(0.0, 0.0, 1.0)];
         let fluid = FluidAt { density: 1000.0, viscosity: 1e-3, flow: None, drag: &drag };
         let row = o.observe(&View { fluid: Some(fluid), ..stage.view() }).unwrap();
-        assert!(row[..4].iter().zip([0.0, 20.0, 0.0, 0.0]).all(|(x, y)| (x - y).abs() < 1e-9), "{row:?}");
-        assert!((row[8] - 2.0).abs() < 1e-12);
+        assert!(row[..4].iter().zip([0.0, -20.0, 0.0, 0.0]).all(|(x, y)| (x - y).abs() < 1e-9), "{row:?}");
+        assert!((row[8] + 2.0).abs() < 1e-12);
     }
 }

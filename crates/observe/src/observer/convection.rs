@@ -38,7 +38,7 @@ impl Observe for Convection {
         summary: "Displacement field J per cycle and its strength, with the noise floor of shuffled displacements.",
         formula: "J(X) = < 1/2 sum_i [delta_i(X; t) + delta_i(X; t - T)] [r_i(t) - r_i(t - T)] >_t (m per cycle), cells X of edge `size`, \
                   delta_i(X; t) = 1 while the centre of grain i is in X; strength J = sqrt(sum_X |J(X)|^2) (m per cycle)\n\
-                  noise: strength after the displacements of each cycle are dealt out to the grains at random; excess = sqrt(J^2 - noise^2)\n\
+                  noise: strength after the displacements of each cycle are dealt out to the grains at random (what all grains have in common stays); excess = sqrt(J^2 - noise^2)\n\
                   errors by the jackknife over batches of cycles; J grows with the number of grains per cell, so quote its cell size",
         source: "Clément 2009, eq. 4.1, 4.2",
     };

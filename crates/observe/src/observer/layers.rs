@@ -217,6 +217,9 @@ impl Layers {
         let first = self.reach.saturating_sub(quarter);
         let last = (self.reach + 3 * quarter).min(2 * self.reach);
         let c = &self.correlation[series][first..=last];
+        if c.iter().all(|x| *x == 0.0) {
+            return f64::NAN;
+        }
         peak(c).map_or(f64::NAN, |p| (first as f64 + p - self.reach as f64) * self.interval)
     }
 
@@ -238,15 +241,16 @@ impl Layers {
             let p = self.welch.density(k + 1, self.interval);
             let top = (1..p.len()).max_by(|&a, &b| p[a].total_cmp(&p[b])).unwrap_or(0);
             let (phase, coherence) = self.welch.lag(k + 1)[shake];
+            let held = |x: f64| if self.present[k] > 0 { x } else { f64::NAN };
             t.rows.push(vec![
                 self.grid.directions[0].centre(k),
                 self.present[k] as f64 / self.samples as f64,
                 p.iter().sum::<f64>() * f[1],
-                f[top],
+                held(f[top]),
                 p[top],
                 p[shake],
                 coherence,
-                phase.to_degrees(),
+                held(phase.to_degrees()),
                 self.lag(k + 1),
             ]);
         }

@@ -79,6 +79,10 @@ pub fn at(view: &View, zones: &Zones, of: Selection, frame: Frame) -> Vec<f64> {
         if s[MASS] > 0.0 {
             for (c, (a, b)) in PAIRS.into_iter().enumerate() {
                 s[FLUCTUATION + c] -= s[MOMENTUM + a] * s[MOMENTUM + b] / s[MASS];
+                if a == b {
+                    // A zone with one grain has no fluctuation: not even a negative one by rounding.
+                    s[FLUCTUATION + c] = s[FLUCTUATION + c].max(0.0);
+                }
             }
             s[SPIN] -= if i > 0.0 { l.length_squared() / i } else { 0.0 };
         }
