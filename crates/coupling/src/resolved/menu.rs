@@ -80,7 +80,7 @@ pub const FORCING_KEYS: &[Key] = &[
     POINTS,
     Key::default("sweeps", Kind::Integer, "3", "How often the remaining slip is removed in a step.")
         .with(Check::Between(1.0, 100.0)),
-    Key::default("kernel", Kind::Choice(KERNELS), "\"roma\"", "Between tracers and grid points."),
+    KERNEL,
     Key::default("layout", Kind::Choice(LAYOUTS), "\"shells\"", "How tracers fill a grain."),
     RETRACTION,
     LUBRICATION,
@@ -134,5 +134,32 @@ impl Resolved {
             viscosity,
             body,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use brazilnut_base::values::Value;
+
+    #[test]
+    fn springs_want_exactly_one_strength() {
+        let read = |pairs: &[(&str, f64)]| {
+            let mut v = Values::default();
+            v.insert("damping", Value::Number(0.0), None);
+            v.insert("inertia", Value::Text("template".into()), None);
+            for (key, x) in pairs {
+                v.insert(key, Value::Number(*x), None);
+            }
+            Resolved::read("fluid-springs", &v, 1000.0, 1e-3, Body::Sphere)
+        };
+        assert_eq!(read(&[]).unwrap_err().0, "c_s");
+        assert_eq!(read(&[("c_s", 0.5), ("relaxation_time", 1e-4)]).unwrap_err().0, "c_s");
+        let springs = |pairs| match read(pairs).unwrap().method {
+            Method::Springs(s) => s.strength,
+            other => panic!("{other:?} are no springs"),
+        };
+        assert_eq!(springs(&[("c_s", 0.5)]), Strength::Cs(0.5));
+        assert_eq!(springs(&[("relaxation_time", 1e-4)]), Strength::RelaxationTime(1e-4));
     }
 }
