@@ -150,6 +150,43 @@ fn a_run_stopped_again_and_again_goes_on_as_if_nothing_had_happened() {
 }
 
 #[test]
+fn every_model_with_a_flow_resumes_to_the_same_bytes_on_any_number_of_threads() {
+    const MODELS: [&str; 5] =
+        ["fluid", "navier-stokes", "particle-template", "fluid-springs", "direct-forcing"];
+    for model in MODELS {
+        let folder = folder();
+        let model = format!("model={model}");
+        let run = |out: &'static str, threads: &'static str| {
+            let mut words = vec!["run", "tiny.toml", "--quiet", "--out", out, "--threads", threads];
+            let cell = "cell.size=[\"3 mm\", \"3 mm\", \"4 mm\"]";
+            let few = ["grains.bronze.count=6", cell, "time.settle=1 ms", "output.pictures=0"];
+            let rest = ["time.end=6 ms", "output.frames=1 ms", "fluid-springs.c_s=0.6", "fluid.spacing=2e-4"];
+            for set in few.into_iter().chain(rest).chain([model.as_str()]) {
+                words.extend(["--set", set]);
+            }
+            words.into_iter().map(String::from).collect::<Vec<_>>()
+        };
+        let go = |words: &[String]| {
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            code(folder.path(), &words)
+        };
+        let (ended, said) = go(&run("unbroken", "2"));
+        assert_eq!(ended, 0, "{model}: {said}");
+        let wanted = results(&folder.path().join("unbroken"));
+        assert!(wanted.keys().any(|p| p.starts_with("checkpoints")), "{model}");
+        for (first, second) in [("1", "3"), ("3", "1")] {
+            let mut words = run("broken", first);
+            words.extend(["--force", "--stop-after", "17"].map(String::from));
+            let (stopped, said) = go(&words);
+            assert_eq!(stopped, 4, "{model}: {said}");
+            ok(folder.path(), &["resume", "broken", "--quiet", "--threads", second]);
+            let got = results(&folder.path().join("broken"));
+            assert_same(&wanted, &got, &format!("{model} on {first}, then {second} threads"));
+        }
+    }
+}
+
+#[test]
 fn observers_do_not_touch_what_they_observe() {
     let folder = folder();
     let bare = CASE.split("[[observe]]").next().unwrap();
