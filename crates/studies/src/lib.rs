@@ -6,12 +6,16 @@
 //! README with the deviations admitted.
 
 mod clement_fig_2_4_to_2_7;
+mod clement_fig_4_1_to_4_3;
 mod clement_fig_5_17;
 mod clement_fig_6_11;
 mod clement_modified_kroll_peaks;
 pub mod findings;
 mod lan_kinetic_theory;
+mod lan_self_diffusion;
+mod lan_stiffness;
 pub mod menu;
+mod runs;
 pub mod study;
 
 pub use findings::{Finding, Verdict};

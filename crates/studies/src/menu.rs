@@ -2,8 +2,8 @@
 
 use crate::study::Study;
 use crate::{
-    clement_fig_2_4_to_2_7, clement_fig_5_17, clement_fig_6_11, clement_modified_kroll_peaks,
-    lan_kinetic_theory,
+    clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11,
+    clement_modified_kroll_peaks, lan_kinetic_theory, lan_self_diffusion, lan_stiffness,
 };
 
 /// A study whose folder and id agree.
@@ -24,6 +24,11 @@ pub const MENU: &[Study] = &[
     study!("clement-fig-2-4-to-2-7", "Two steel spheres under three contact laws (Clément 2009)", |r| Ok(
         clement_fig_2_4_to_2_7::run(r.quick).into()
     )),
+    study!(
+        "clement-fig-4-1-to-4-3",
+        "Convection by the friction of the walls (Clément 2009)",
+        clement_fig_4_1_to_4_3::run
+    ),
     study!("clement-fig-5-17", "Partition instability of two coupled columns (Clément 2009)", |r| Ok(
         clement_fig_5_17::run(r.quick).into()
     )),
@@ -38,4 +43,6 @@ pub const MENU: &[Study] = &[
     study!("lan-kinetic-theory", "Kinetic theory of a vibrated layer (Lan 1994)", |r| Ok(
         lan_kinetic_theory::run(r.quick).into()
     )),
+    study!("lan-self-diffusion", "Self-diffusion in a vibrated layer (Lan 1994)", lan_self_diffusion::run),
+    study!("lan-stiffness", "Softer springs, the same profiles (Lan 1994)", lan_stiffness::run),
 ];
