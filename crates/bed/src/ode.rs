@@ -52,9 +52,12 @@ pub enum Ending<const N: usize> {
         /// The state there.
         state: [f64; N],
     },
-    /// The step shrank to nothing at this time: the right side is not smooth there.
+    /// The step shrank to nothing at this time, or too many were needed: the right side is not smooth there, or stiff.
     Stuck(f64),
 }
+
+/// Most steps that one integration tries: a stiff one would go on for hours and fill the memory.
+pub const MOST_STEPS: usize = 1_000_000;
 
 /// Integrates y' = `slope`(t, y) from `t0` to `t_end`, or to the first fall of
 /// one of the `events` functions through zero; `seen` gets every step.
@@ -79,7 +82,12 @@ pub fn integrate<const N: usize, const M: usize>(
     let mut k1 = slope(t, &y);
     // Short at first, so that a brief stay above zero after the start is not stepped over.
     let mut h = (accuracy.longest * 1e-4).min(t_end - t0);
+    let mut tried = 0;
     while t < t_end {
+        tried += 1;
+        if tried > MOST_STEPS {
+            return Ending::Stuck(t);
+        }
         h = h.min(accuracy.longest);
         let last = t + h >= t_end;
         if last {

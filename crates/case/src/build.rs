@@ -1,13 +1,12 @@
 //! The only place that assembles parts: from values to a plan.
 
 use crate::case::Case;
+use crate::clock::clock;
 use crate::contact::{self, Body};
 use crate::issue::Issues;
 use crate::{check, parts};
-use brazilnut_base::schedule::Every;
 use brazilnut_base::values::Values;
 use brazilnut_base::{Cell, Side, Vec3};
-use brazilnut_fluid::FluidSpec;
 use brazilnut_grains::contact::{NormalLaw, RollingLaw, TangentialLaw};
 use brazilnut_grains::packing::{self, Filling, Placement, Region, Shape, Sizes};
 use brazilnut_grains::{
@@ -65,14 +64,14 @@ pub struct Facts {
 pub fn build(case: &Case) -> Result<Built, Issues> {
     let v = &case.values;
     let mut issues = case.issues();
-    let Some(cell) = parts::cell(v) else { return Err(issues) };
+    let Some(cell) = parts::cell(v) else { return Err(issues.sorted()) };
     if v.text("model") == "fluid" {
         return fluid_alone(case, cell);
     }
     let materials = materials(v);
-    let Some(contact) = contact::read(v, &materials, &mut issues) else { return Err(issues) };
+    let Some(contact) = contact::read(v, &materials, &mut issues) else { return Err(issues.sorted()) };
     let start = place(case, &cell, &materials, &mut issues);
-    let Some(start) = start else { return issues.or(()).map(|()| unreachable!()) };
+    let Some(start) = start else { return Err(issues.sorted()) };
     let facts = facts(v, &cell, &materials, &contact, &start, &mut issues);
     let walls = walls(v, &cell, &materials);
     let species = species(v, &start);
@@ -81,9 +80,7 @@ pub fn build(case: &Case) -> Result<Built, Issues> {
         Some(Medium::Coupled(_, f) | Medium::Fluid(f)) => Some(&**f),
         _ => None,
     };
-    let Some(clock) = clock(v, &facts, flow, &mut issues) else {
-        return issues.or(()).map(|()| unreachable!());
-    };
+    let Some(clock) = clock(v, &facts, flow, &mut issues) else { return Err(issues.sorted()) };
     let dem = DemSpec {
         cell,
         materials,
@@ -142,9 +139,7 @@ fn fluid_alone(case: &Case, cell: Cell) -> Result<Built, Issues> {
         diameter: cell.size.min_element(),
         ..Facts::default()
     };
-    let Some(clock) = clock(v, &facts, Some(&spec), &mut issues) else {
-        return issues.or(()).map(|()| unreachable!("a clock that cannot be made has an issue"));
-    };
+    let Some(clock) = clock(v, &facts, Some(&spec), &mut issues) else { return Err(issues.sorted()) };
     let contact = ContactSpec {
         normal: NormalLaw::Linear,
         tangential: TangentialLaw::None,
@@ -447,60 +442,6 @@ fn facts(
     f.height = packing::bed_height(f.volume, packing::settled_solids_fraction(cell), cell.base_area());
     f.fluid = v.table_opt("fluid").and_then(|t| Some((t.number_opt("density")?, t.number_opt("viscosity")?)));
     f
-}
-
-fn clock(v: &Values, facts: &Facts, flow: Option<&FluidSpec>, issues: &mut Issues) -> Option<Clock> {
-    let t = v.table_opt("time")?;
-    if flow.is_none() && !facts.contact_time.is_finite() {
-        return None;
-    }
-    let grain = facts.contact_time / t.number("steps_per_contact");
-    let auto = flow.map_or(grain, |f| crate::fluid::largest_step(f, facts.flow_speed));
-    let (step, exact) = match (t.number_opt("dt"), flow) {
-        (Some(dt), None) => {
-            // A contact seen less often than this gains energy (Clément 2.1.3 asks for ten).
-            if dt > facts.contact_time / 5.0 {
-                issues.add(
-                    t.span("dt"),
-                    "the time step is too long for the contacts",
-                    format!(
-                        "the shortest contact lasts {:.3e} s: {:.1} steps",
-                        facts.contact_time,
-                        facts.contact_time / dt
-                    ),
-                    format!("leave `dt` out, or take at most {:.2e} s", facts.contact_time / 10.0),
-                );
-                return None;
-            }
-            (dt, true)
-        }
-        (Some(dt), Some(f)) => {
-            let limits = brazilnut_fluid::step_limits(f, facts.flow_speed);
-            if let Some((name, limit)) =
-                limits.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).filter(|l| dt > l.1)
-            {
-                issues.add(
-                    t.span("dt"),
-                    "the time step is too long for the fluid",
-                    format!("the {name} limit is {limit:.3e} s at {:.3} m/s", facts.flow_speed),
-                    format!("leave `dt` out, or take at most {limit:.2e} s"),
-                );
-                return None;
-            }
-            (dt, true)
-        }
-        (None, _) => (auto, false),
-    };
-    let frequency = facts.shake.map(|s| s.1);
-    let grain = if flow.is_some() { grain } else { step };
-    let mut clock = Clock::new(step, grain, frequency, exact);
-    clock.end = match t.every_opt("end")? {
-        Every::Cycles(n) => clock.steps_per_cycle? * n,
-        Every::Time(end) => (end / clock.dt).round().max(1.0) as u64,
-        Every::Steps(n) => n,
-        Every::PerCycle(_) | Every::End => return None,
-    };
-    Some(clock)
 }
 
 fn species(v: &Values, grains: &Grains) -> Vec<Species> {

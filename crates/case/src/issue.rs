@@ -67,12 +67,15 @@ impl Issues {
     ///
     /// # Errors
     /// The issues, if there are any.
-    pub fn or<T>(mut self, value: T) -> Result<T, Self> {
-        if self.list.is_empty() {
-            return Ok(value);
-        }
+    pub fn or<T>(self, value: T) -> Result<T, Self> {
+        if self.list.is_empty() { Ok(value) } else { Err(self.sorted()) }
+    }
+
+    /// The same in the order of the text.
+    #[must_use]
+    pub fn sorted(mut self) -> Self {
         self.list.sort_by_key(|i| i.span.as_ref().map_or(usize::MAX, |s| s.start));
-        Err(self)
+        self
     }
 
     /// The text for a terminal (`colour`) or a log.

@@ -8,6 +8,7 @@ pub mod analytic;
 pub mod build;
 pub mod case;
 pub mod check;
+mod clock;
 pub mod contact;
 pub mod describe;
 pub mod fluid;

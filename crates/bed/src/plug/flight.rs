@@ -2,7 +2,7 @@
 
 use super::PlugSpec;
 use crate::bed_equation::{BedLaw, Medium};
-use crate::ode::{Accuracy, Ending, Step, integrate};
+use crate::ode::{Accuracy, Ending, MOST_STEPS, Step, integrate};
 use crate::shake::{Shake, minimum};
 use crate::system::{Refusals, stalled};
 use crate::with_bed_law;
@@ -186,6 +186,9 @@ fn settle<L: BedLaw>(spec: &PlugSpec, shake: &Shake, bed: &Bed<L>) -> Result<Plu
         }
         next = shake.next_throw(flight.landing);
         flights.push(flight);
+        if flights.iter().map(|f| f.steps.len()).sum::<usize>() > MOST_STEPS {
+            return Err(stalled(takeoff));
+        }
     }
     let at_rest = next.is_none();
     let (first, multiplicity) = match found {
