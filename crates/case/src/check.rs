@@ -120,6 +120,9 @@ fn cell(v: &Values, issues: &mut Issues) {
     }
 }
 
+/// Smallest diameter of a grain, m.
+const SMALLEST: f64 = 1e-9;
+
 fn grains(v: &Values, model: &str, issues: &mut Issues) {
     let flat = v
         .table_opt("cell")
@@ -186,16 +189,16 @@ fn grains(v: &Values, model: &str, issues: &mut Issues) {
             );
         }
         shapes.push(shape);
-        if !diameter_is_broken
-            && let Some(d) = g.table_opt("diameter")
-            && let Err(e) = brazilnut_grains::packing::Sizes::read(d)
-        {
-            issues.add(
-                g.span("diameter"),
-                format!("the diameter of \"{name}\" makes no sense"),
-                e.cause(),
-                e.remedy(),
-            );
+        if let Some(d) = g.table_opt("diameter").filter(|_| !diameter_is_broken) {
+            let (cause, remedy) = match brazilnut_grains::packing::Sizes::read(d) {
+                Err(e) => (e.cause(), e.remedy()),
+                Ok(sizes) if sizes.range()[0] < SMALLEST => {
+                    (format!("{:e} m is less than a molecule", sizes.range()[0]), "check the unit".into())
+                }
+                Ok(_) => continue,
+            };
+            let message = format!("the diameter of \"{name}\" makes no sense");
+            issues.add(g.span("diameter"), message, cause, remedy);
         }
     }
     let counts = || v.tables("grains").map(|g| g.integer_opt("count"));
