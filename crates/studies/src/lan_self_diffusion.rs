@@ -69,7 +69,10 @@ impl Run {
         vec![
             Computed::new(name("self-diffusion along x"), self.coefficient("d_x_by_velocities")),
             Computed::new(name("self-diffusion along y"), self.coefficient("d_y_by_velocities")),
-            Computed::new(name("a third of the temperature along x"), first(&self.cell, "temperature_x") / 3.0),
+            Computed::new(
+                name("a third of the temperature along x"),
+                first(&self.cell, "temperature_x") / 3.0,
+            ),
         ]
     }
 
