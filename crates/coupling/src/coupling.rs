@@ -112,7 +112,7 @@ impl Coupling {
         }
     }
 
-    /// The part of [`Self::during_fluid`], and what the fluid is told: two borrows for one fluid step.
+    /// The part of [`During::act`], and what the fluid is told: two borrows for one fluid step.
     pub fn parts(&mut self) -> (During<'_>, &Medium) {
         let resolved = match (&self.spec, &mut self.rung) {
             (CouplingSpec::Resolved(spec), Rung::Resolved(work)) => Some((spec, &mut **work)),
