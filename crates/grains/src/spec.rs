@@ -186,9 +186,8 @@ pub struct Search {
 }
 
 impl Default for Search {
-    /// Plain: the portable wide sweep is slower on machines for which it has no instructions of its own.
     fn default() -> Self {
-        Self { sweep: Sweep::Plain, skin: None, inner_skin: None, all_pairs_below: 1000, block: 5000 }
+        Self { sweep: Sweep::Fast, skin: None, inner_skin: None, all_pairs_below: 1000, block: 5000 }
     }
 }
 

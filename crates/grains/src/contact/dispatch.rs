@@ -6,8 +6,8 @@ use super::menu::{NormalLaw, RollingLaw, TangentialLaw};
 use super::pair::{Answer, Law, Pair};
 use super::sweep::{PairJob, Tally, sweep};
 use super::wall_sweep::{WallJob, sweep_walls};
-use crate::lanes::{Lanes8, Wide};
-use crate::spec::{DemSpec, SpecError, Sweep};
+use crate::lanes::{Job, Level, Wide};
+use crate::spec::{DemSpec, SpecError};
 use std::marker::PhantomData;
 
 /// A complete law with its constants, ready to sweep.
@@ -103,10 +103,23 @@ impl Width for One {
 
 impl Width for Eight {
     fn pairs<L: Law>(active: &Active<L, Self>, job: PairJob<'_>, counted: &mut Tally) {
-        match active.sweep {
-            Sweep::Plain => active.pairs_by::<f64>(job, counted),
-            Sweep::Fast | Sweep::Portable => active.pairs_by::<Lanes8>(job, counted),
-        }
+        active.level.run(Wider { active, job, counted });
+    }
+}
+
+/// A list of pairs for whatever lanes the machine has.
+struct Wider<'a, L, W> {
+    active: &'a Active<L, W>,
+    job: PairJob<'a>,
+    counted: &'a mut Tally,
+}
+
+impl<L: Law, W: Width> Job for Wider<'_, L, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Wide>(self) {
+        self.active.pairs_by::<R>(self.job, self.counted);
     }
 }
 
@@ -114,7 +127,7 @@ impl Width for Eight {
 struct Active<L, W> {
     table: Vec<L>,
     spins: bool,
-    sweep: Sweep,
+    level: Level,
     width: PhantomData<W>,
 }
 
@@ -136,7 +149,7 @@ impl<L: Law, W: Width> Active<L, W> {
         Ok(Self {
             table,
             spins: spec.rotation && (L::TANGENTIAL || L::ROLLS),
-            sweep: spec.search.sweep,
+            level: spec.search.sweep.level(),
             width: PhantomData,
         })
     }

@@ -189,10 +189,18 @@ pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<
         let f = answer.force.keep(touching);
         let t = if SPINS { (n.cross(answer.tangential) * lever).keep(touching) } else { V3::zero() };
         let count = R::WIDTH.min(job.len - p);
-        R::scatter::<SPINS>(&[f.x, f.y, f.z, t.x, t.y, t.z], job.forces, job.base, i, j, count, job.adds);
+        R::scatter::<SPINS>(
+            &[f.x, f.y, f.z, t.x, t.y, t.z],
+            job.forces,
+            job.base,
+            i,
+            j,
+            count,
+            job.adds.sides(),
+        );
         if SPINS && L::ROLLS {
             let c = answer.couple.keep(touching);
-            R::scatter_couple(&[c.x, c.y, c.z], job.couples, job.base, i, j, count, job.adds);
+            R::scatter_couple(&[c.x, c.y, c.z], job.couples, job.base, i, j, count, job.adds.sides());
         }
         p = q;
     }

@@ -1,7 +1,8 @@
 //! When lists are made anew.
 
+use super::work::Work;
 use super::{Dem, Scratch};
-use crate::lanes::Lanes8;
+use crate::lanes::{Job, Wide};
 use crate::neighbors::inner::{Memory, Prune};
 use crate::neighbors::outer::Scene;
 use crate::state::{DemState, Drift, Lists};
@@ -75,10 +76,9 @@ impl Dem {
             materials: self.spec.materials.len(),
             memory: if handed { Memory::Handed(handover) } else { Memory::Kept },
         };
-        let one = |(lists, work): (&mut Lists, &mut super::work::Work)| {
-            for pairs in [&mut lists.inside, &mut lists.first, &mut lists.second, &mut lists.big] {
-                prune.run::<Lanes8>(pairs, &mut work.spare);
-            }
+        let level = self.spec.search.sweep.level();
+        let one = |(lists, work): (&mut Lists, &mut Work)| {
+            level.run(Inner { prune: &prune, lists, work });
             prune.walls(&mut lists.walls, &self.walls, &mut work.spare);
         };
         if parallel {
@@ -105,6 +105,25 @@ impl Dem {
             }
         }
         handover.index(state.tags.len());
+    }
+}
+
+/// Pruning of one block for whatever lanes the machine has.
+struct Inner<'a> {
+    prune: &'a Prune<'a>,
+    lists: &'a mut Lists,
+    work: &'a mut Work,
+}
+
+impl Job for Inner<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Wide>(self) {
+        let Lists { inside, first, second, big, .. } = self.lists;
+        for pairs in [inside, first, second, big] {
+            self.prune.run::<R>(pairs, &mut self.work.spare);
+        }
     }
 }
 

@@ -1,11 +1,32 @@
 //! Loading, transposing and scattering rows for several contacts at a time.
 
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+mod level;
 mod portable;
+#[cfg(test)]
+mod suite;
 
+#[cfg(target_arch = "x86_64")]
+pub use avx2::Avx2;
+#[cfg(target_arch = "x86_64")]
+pub use avx512::Avx512;
+pub use level::{Job, Level};
 pub use portable::Lanes8;
 
 use crate::contact::real::Real;
 use crate::packed::{Couple, Force, Row, Spin};
+
+impl Adds {
+    /// Whether the first and the second body get the force.
+    #[inline(always)]
+    #[must_use]
+    pub fn sides(self) -> (bool, bool) {
+        (self != Self::Second, self != Self::First)
+    }
+}
 
 /// To which of its two bodies a pair adds its force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,10 +88,10 @@ pub trait Wide: Real {
         i: &[u32],
         j: &[u32],
         count: usize,
-        adds: Adds,
+        (first, second): (bool, bool),
     ) {
         for k in 0..count {
-            if adds != Adds::Second {
+            if first {
                 let f = &mut forces[i[k] as usize - base_i].0;
                 for c in 0..3 {
                     f[c] += columns[c].lane(k);
@@ -79,7 +100,7 @@ pub trait Wide: Real {
                     }
                 }
             }
-            if adds != Adds::First {
+            if second {
                 let f = &mut forces[j[k] as usize - base_j].0;
                 for c in 0..3 {
                     f[c] -= columns[c].lane(k);
@@ -100,14 +121,14 @@ pub trait Wide: Real {
         i: &[u32],
         j: &[u32],
         count: usize,
-        adds: Adds,
+        (first, second): (bool, bool),
     ) {
         for k in 0..count {
             for c in 0..3 {
-                if adds != Adds::Second {
+                if first {
                     couples[i[k] as usize - base_i].0[c] += couple[c].lane(k);
                 }
-                if adds != Adds::First {
+                if second {
                     couples[j[k] as usize - base_j].0[c] -= couple[c].lane(k);
                 }
             }
