@@ -88,7 +88,7 @@ fn read(model: &str, folder: &Path, seconds: f64) -> Result<Rung, Failure> {
     };
     let (gap, pressure) = if check::has_grains(model) {
         (
-            curve("compare-bed-by-phase", "gap_percentile", "gap_percentile_error")?,
+            above_rest(curve("compare-bed-by-phase", "gap_percentile", "gap_percentile_error")?),
             curve("compare-pressure-by-phase", "fluid_mean", "fluid_mean_error")?,
         )
     } else {
@@ -97,11 +97,18 @@ fn read(model: &str, folder: &Path, seconds: f64) -> Result<Rung, Failure> {
     Ok(Rung { model: model.into(), gap, pressure, seconds })
 }
 
+/// Grains of a resting bed do not all touch the floor: the gap counts from its least value in the cycle.
+fn above_rest(mut gap: Curves) -> Curves {
+    let rest = gap.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
+    gap.iter_mut().for_each(|p| p[1] -= rest);
+    gap
+}
+
 fn write(case: &Case, out: &Path, rungs: &[Rung]) -> Result<(), Failure> {
     let figure = |title: &str, unit: &str, pick: fn(&Rung) -> &Curves| {
         Figure {
         title: title.into(),
-        caption: "Against the phase of the shake; 0 is the floor moving up at its fastest. Bands: standard error over the cycles. Hydrostatic part removed.".into(),
+        caption: "Against the phase of the shake; 0 is the floor moving up at its fastest. Bands: standard error over the cycles. Hydrostatic part removed; the gap of grains counts from its least value in the cycle.".into(),
         body: Body::Curves {
             x: Axis::linear("phase", "deg"),
             y: Axis::linear(&title.to_lowercase(), unit),
