@@ -124,7 +124,7 @@ impl SimpleDrag {
 
     /// Drag on every grain without buoyancy, N, in the order of identity.
     ///
-    /// The base pressure of this rung is minus their sum over the base area.
+    /// Their sum over the base area is the base pressure of this rung: below zero while the bed rises.
     pub fn drag_forces(&self, map: Option<&LocalPorosity>, grains: &Grains, out: &mut Vec<Vec3>) {
         out.clear();
         let still = Still { gravity: Vec3::ZERO, frame: Vec3::ZERO };

@@ -394,7 +394,6 @@ impl<'a> Job<'a> {
             largest_energy_residual: state.largest_residual,
             energy: energy.iter().map(|(k, v)| ((*k).to_string(), *v)).collect(),
             timing: timing.iter().map(|(k, v)| ((*k).to_string(), *v)).collect(),
-            state_hash: None,
             warnings: self.warnings.iter().chain(self.simulation.warnings()).cloned().collect(),
             error,
         })

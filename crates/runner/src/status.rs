@@ -46,8 +46,6 @@ pub struct Status {
     pub energy: BTreeMap<String, f64>,
     /// Seconds by stage.
     pub timing: BTreeMap<String, f64>,
-    /// Hash of the state at the last checkpoint.
-    pub state_hash: Option<String>,
     /// Warnings.
     pub warnings: Vec<String>,
     /// What went wrong, if anything.
