@@ -39,8 +39,12 @@ const TASKS: &[Task] = &[
     ),
     (
         "crash",
-        "runs killed at random moments resume to the same bytes",
-        &[&["build", "--release", "--package", "brazilnut"], &["scripts/crash-test", "3"]],
+        "runs killed at random moments, or out of disk, resume to the same bytes",
+        &[
+            &["build", "--release", "--package", "brazilnut"],
+            &["scripts/crash-test", "3"],
+            &["scripts/full-disk-test"],
+        ],
     ),
 ];
 

@@ -120,6 +120,9 @@ pub struct Check {
 pub struct Resume {
     /// The run directory.
     pub directory: PathBuf,
+    /// Go on to this end instead of the case's, as `20s` or `"300 cycles"`; the run's case is changed to it.
+    #[arg(long, value_name = "TIME")]
+    pub until: Option<String>,
     /// The job.
     #[command(flatten)]
     pub job: JobArguments,

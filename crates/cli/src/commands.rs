@@ -39,7 +39,7 @@ fn carry_out(command: Command) -> Result<u8, Failure> {
             Ok(0)
         }
         Command::Resume(r) => {
-            let options = job(&r.job)?;
+            let options = Options { until: r.until, ..job(&r.job)? };
             let outcome = run::resume(&r.directory, &options)?;
             ended(outcome, &r.directory, r.job.quiet);
             Ok(outcome.exit_code())

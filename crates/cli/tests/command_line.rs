@@ -150,6 +150,30 @@ fn a_run_stopped_again_and_again_goes_on_as_if_nothing_had_happened() {
 }
 
 #[test]
+fn a_run_can_go_on_beyond_its_end_as_if_that_had_been_asked_from_the_start() {
+    let folder = folder();
+    let out = |name: &'static str| ["run", "tiny.toml", "--quiet", "--out", name];
+    ok(folder.path(), &[&out("long")[..], &["--set", "time.end=3 cycles"]].concat());
+    ok(folder.path(), &out("short"));
+    ok(folder.path(), &["resume", "short", "--quiet", "--until", "3 cycles"]);
+    // Pictures are spread over the whole run, so their moments follow its end.
+    let of = |name: &str| {
+        let mut all = results(&folder.path().join(name));
+        all.retain(|p, _| !p.starts_with("pictures"));
+        all
+    };
+    assert_same(&of("long"), &of("short"), "one cycle more");
+    // The new end is the case's from now on; going back is refused, and so is nonsense.
+    ok(folder.path(), &["resume", "short", "--quiet"]);
+    for (end, word) in [("1 cycles", "beyond the end"), ("3 mm", "time.end"), ("soon", "time.end")] {
+        let (refused, said) = code(folder.path(), &["resume", "short", "--quiet", "--until", end]);
+        assert_eq!(refused, 2, "{end}: {said}");
+        assert!(said.contains(word), "{end}: {said}");
+        assert_same(&of("long"), &of("short"), end);
+    }
+}
+
+#[test]
 fn every_model_with_a_flow_resumes_to_the_same_bytes_on_any_number_of_threads() {
     const MODELS: [&str; 5] =
         ["fluid", "navier-stokes", "particle-template", "fluid-springs", "direct-forcing"];

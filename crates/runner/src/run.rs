@@ -38,6 +38,8 @@ pub struct Options {
     pub wall_limit: Option<Duration>,
     /// Stop with a checkpoint after this many steps since time 0 (for tests and crash drills).
     pub stop_after: Option<u64>,
+    /// A resumed run ends then instead of at its case's `time.end`.
+    pub until: Option<String>,
 }
 
 /// How a run ended without failing.
@@ -93,13 +95,14 @@ pub fn run(case: &Case, options: &Options) -> Result<Outcome, Failure> {
     job.carry_out()
 }
 
-/// Continues the run in `root` to its end.
+/// Continues the run in `root` to its end, or to another end if `options` name one.
 ///
 /// # Errors
-/// As [`run`]; also if there is no whole checkpoint, or the case was edited.
+/// As [`run`]; also if there is no whole checkpoint, the case was edited, or the checkpoint lies beyond the end.
 pub fn resume(root: &Path, options: &Options) -> Result<Outcome, Failure> {
     let directory = Directory::new(root);
-    let case = Case::load(&directory.case(), &[])?;
+    let end: Vec<String> = options.until.iter().map(|t| format!("time.end={t}")).collect();
+    let case = Case::load(&directory.case(), &end)?;
     let _lock = Lock::take(&directory.root)?;
     let found = checkpoint::load_latest::<Saved>(&directory.checkpoints(), checkpoint::Limits::default())?;
     let Built { plan, .. } = &build::build(&case)?;
@@ -111,6 +114,17 @@ pub fn resume(root: &Path, options: &Options) -> Result<Outcome, Failure> {
             directory.case().display(),
             edited.join("\n  ")
         )));
+    }
+    if saved.state.stage == Stage::Running && saved.state.step > plan.clock.end {
+        return Err(Failure::Usage(format!(
+            "the checkpoint of {} stands at {} s, beyond the end at {} s\n  remedy: a later `--until` or `time.end`",
+            root.display(),
+            saved.state.step as f64 * plan.clock.dt,
+            plan.clock.end as f64 * plan.clock.dt
+        )));
+    }
+    if options.until.is_some() {
+        atomic::write(&directory.case(), case.resolved().as_bytes())?;
     }
     let sheet = sheet::sheet(case.values.text("title"), case.model(), &build::build(&case)?);
     let output = case.values.table_opt("output").expect("has a default");
