@@ -24,5 +24,5 @@ pub use grains::Grains;
 pub use ledger::Ledger;
 pub use material::Material;
 pub use spec::{ContactSpec, DemSpec, Integrator, Limits, PairSpec, PairTable, Search, SpecError, Sweep};
-pub use state::{Counts, DemState};
+pub use state::{Collisions, Counts, DemState};
 pub use wall::{Arrangement, WallLoad, WallShape, WallSpec};

@@ -49,6 +49,8 @@ pub struct DemState {
     pub(crate) overlap: f64,
     /// Touching pairs and wall contacts in the last step.
     pub(crate) contacts: u64,
+    /// Contacts that have begun since the start.
+    pub(crate) collisions: Collisions,
     /// Lowest and highest coordinates of centres.
     pub(crate) extent: [Vec3; 2],
     /// Work done on lists so far.
@@ -87,6 +89,15 @@ pub struct Counts {
     pub builds: u64,
     /// Inner lists made.
     pub prunes: u64,
+}
+
+/// Numbers of contacts that have begun: of bodies that touch in a step and did not in the one before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Collisions {
+    /// Between two grains.
+    pub grains: u64,
+    /// Between a grain and a wall.
+    pub walls: u64,
 }
 
 /// Running energy sums, J.
@@ -144,6 +155,8 @@ pub struct Pairs {
     pub len: usize,
     /// Contact memory: by batch of eight, then slot, then lane.
     pub memory: Vec<f64>,
+    /// Who touched when last swept: a byte per batch, a bit per pair.
+    pub touched: Vec<u8>,
 }
 
 /// Candidate wall contacts, as [`Pairs`].
@@ -159,6 +172,8 @@ pub struct WallPairs {
     pub class: Vec<u8>,
     /// Contact memory, as in [`Pairs`].
     pub memory: Vec<f64>,
+    /// Who touched when last swept, as in [`Pairs`].
+    pub touched: Vec<u8>,
 }
 
 /// Batches are padded to this many lanes.
@@ -169,6 +184,17 @@ pub const BATCH: usize = 8;
 #[must_use]
 pub fn memory_place(p: usize, s: usize, slots: usize) -> usize {
     (p / BATCH * slots + s) * BATCH + p % BATCH
+}
+
+/// Whether contact `p` touched when last swept.
+#[must_use]
+pub fn has_touched(touched: &[u8], p: usize) -> bool {
+    touched[p / BATCH] >> (p % BATCH) & 1 == 1
+}
+
+/// Notes that contact `p` touched when last swept.
+pub fn note_touched(touched: &mut [u8], p: usize) {
+    touched[p / BATCH] |= 1 << (p % BATCH);
 }
 
 impl DemState {
@@ -194,6 +220,12 @@ impl DemState {
     #[must_use]
     pub fn contact_count(&self) -> u64 {
         self.contacts
+    }
+
+    /// Contacts that have begun since the start.
+    #[must_use]
+    pub fn collisions(&self) -> Collisions {
+        self.collisions
     }
 
     /// Work done on neighbour lists so far.

@@ -6,7 +6,7 @@ use brazilnut_base::keys::{Absent, Key};
 use brazilnut_base::motion::Moved;
 use brazilnut_base::values::{Value, Values};
 use brazilnut_base::{Cell, Side, Tick, Vec3, random, vec3};
-use brazilnut_grains::Grains;
+use brazilnut_grains::{Collisions, Grains};
 use rand::RngExt;
 
 /// What a view is made from.
@@ -20,6 +20,7 @@ pub struct Stage {
     pub floor: Moved,
     pub names: Vec<String>,
     pub flow: Option<Uniform>,
+    pub collisions: Collisions,
 }
 
 /// A flow of one velocity and a pressure that rises with x, on a regular grid.
@@ -75,6 +76,7 @@ impl Stage {
             floor: Moved::default(),
             names: vec!["all".into(), "other".into()],
             flow: None,
+            collisions: Collisions::default(),
         }
     }
 
@@ -104,7 +106,7 @@ impl Stage {
             contacts: &self.contacts,
             walls: &self.walls,
             ledger: &[],
-            collisions: None,
+            collisions: self.collisions,
             fluid: self.flow.as_ref().map(|f| FluidAt {
                 density: 1000.0,
                 viscosity: 1e-3,

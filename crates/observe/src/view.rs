@@ -2,8 +2,7 @@
 
 use brazilnut_base::motion::Moved;
 use brazilnut_base::{Cell, Tick, Vec3};
-use brazilnut_grains::Grains;
-use serde::{Deserialize, Serialize};
+use brazilnut_grains::{Collisions, Grains};
 
 /// The state of a run at one step boundary, read-only.
 ///
@@ -28,8 +27,8 @@ pub struct View<'a> {
     pub walls: &'a [WallAt<'a>],
     /// The energy ledger: name and value in J, in the order of the case.
     pub ledger: &'a [(&'static str, f64)],
-    /// Contacts begun since the start, if the engine counts them.
-    pub collisions: Option<Collisions>,
+    /// Contacts begun since the start.
+    pub collisions: Collisions,
     /// The fluid, if there is one.
     pub fluid: Option<FluidAt<'a>>,
     /// Motion of the cell's frame (zero unless the whole cell is shaken).
@@ -75,15 +74,6 @@ pub struct WallAt<'a> {
     pub force: Vec3,
     /// Its displacement from the place of the case, in the cell's frame, m.
     pub displacement: Vec3,
-}
-
-/// Counts of contacts that have begun since the start.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Collisions {
-    /// Between grains.
-    pub grains: u64,
-    /// Between a grain and a wall.
-    pub walls: u64,
 }
 
 /// The fluid as observers see it.

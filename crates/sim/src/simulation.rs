@@ -355,7 +355,7 @@ impl Simulation {
             contacts: &scratch.contacts,
             walls: &walls,
             ledger: &ledger,
-            collisions: None,
+            collisions: grains.collisions(),
             fluid,
             frame,
             floor,

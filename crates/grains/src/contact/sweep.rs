@@ -23,6 +23,8 @@ pub struct PairJob<'a> {
     pub len: usize,
     /// Contact memory.
     pub memory: &'a mut [f64],
+    /// Who touched when last swept, a bit each.
+    pub touched: &'a mut [u8],
     /// Where forces are added.
     pub forces: &'a mut [Force],
     /// Where rolling couples are added, empty unless a law rolls.
@@ -49,6 +51,8 @@ pub struct Tally {
     pub overlap: [f64; BATCH],
     /// Touching contacts.
     pub contacts: u64,
+    /// Contacts of pairs that begin, and of grains with walls.
+    pub begun: [u64; 2],
 }
 
 impl Tally {
@@ -82,6 +86,17 @@ pub(super) fn remember<R: Wide>(m: &[R; MAX_SLOTS], memory: &mut [f64], p: usize
     for s in 0..slots {
         m[s].store(&mut memory[crate::state::memory_place(p, s, slots)..]);
     }
+}
+
+/// Notes who of the contacts from `p` on touches now, and returns how many of them did not when last swept.
+#[inline(always)]
+pub(super) fn begins<R: Real>(touched: &mut [u8], p: usize, touching: R::Mask) -> u64 {
+    let place = &mut touched[p / BATCH];
+    let all = (u8::MAX >> (BATCH - R::WIDTH)) << (p % BATCH);
+    let now = touching.bits() << (p % BATCH);
+    let begun = now & !*place;
+    *place = *place & !all | now;
+    u64::from(begun.count_ones())
 }
 
 /// Zero where nothing touches; what the springs still held goes into the tally.
@@ -131,6 +146,7 @@ pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<
         let square = d.dot(d);
         let touching = square.lt(reach * reach);
         let bits = touching.bits();
+        counted.begun[0] += begins::<R>(job.touched, p, touching);
         if bits == 0 {
             if L::SLOTS > 0 {
                 let old = recall::<R>(job.memory, p, L::SLOTS);

@@ -3,7 +3,7 @@
 use super::law::Touch;
 use super::pair::{Law, energy};
 use super::real::{Mask, V3};
-use super::sweep::{Tally, forget, recall, remember, tally};
+use super::sweep::{Tally, begins, forget, recall, remember, tally};
 use crate::lanes::Wide;
 use crate::packed::{Couple, Force, Row, Spin};
 use crate::state::BATCH;
@@ -22,6 +22,8 @@ pub struct WallJob<'a> {
     pub class: &'a [u8],
     /// Contact memory.
     pub memory: &'a mut [f64],
+    /// Who touched when last swept, a bit each.
+    pub touched: &'a mut [u8],
     /// Where forces are added.
     pub forces: &'a mut [Force],
     /// Where rolling couples are added.
@@ -115,6 +117,7 @@ fn contact<L: Law, R: Wide, const SPINS: bool>(
     let radius = R::load(&c.radius[lane..]);
     let distance = R::load(&c.distance[lane..]);
     let touching = distance.lt(radius);
+    counted.begun[1] += begins::<R>(job.touched, p, touching);
     if L::SLOTS == 0 && !touching.any() {
         return;
     }

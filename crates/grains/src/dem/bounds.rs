@@ -91,18 +91,16 @@ impl Dem {
         state.counts.prunes += 1;
     }
 
-    /// Takes up the memory of all contacts.
+    /// Takes up all touching contacts and what they remember.
     fn collect(&mut self, state: &DemState) {
         let slots = self.law.slots();
         let handover = &mut self.scratch.handover;
         handover.clear(slots, self.law.odd());
-        if slots > 0 {
-            for lists in &state.blocks {
-                for pairs in [&lists.inside, &lists.first, &lists.big] {
-                    handover.take(pairs, &state.tags, &state.rest);
-                }
-                handover.take_walls(&lists.walls, &state.tags);
+        for lists in &state.blocks {
+            for pairs in [&lists.inside, &lists.first, &lists.big] {
+                handover.take(pairs, &state.tags, &state.rest);
             }
+            handover.take_walls(&lists.walls, &state.tags);
         }
         handover.index(state.tags.len());
     }

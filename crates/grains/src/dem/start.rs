@@ -6,7 +6,7 @@ use crate::motion::{Gear, PositionVerlet, Scheme, VelocityVerlet};
 use crate::neighbors::Skins;
 use crate::packed::{DUMMIES, Half, INDEX, Rest, Row, Spin, Tag};
 use crate::spec::{DemSpec, Integrator, SpecError};
-use crate::state::{Counts, DemState, Drift, Lists, Sums};
+use crate::state::{Collisions, Counts, DemState, Drift, Lists, Sums};
 use crate::wall::{WallLoad, WallShape};
 use brazilnut_base::{Quat, Vec3, vec3};
 
@@ -82,6 +82,7 @@ impl Dem {
             radii: [least(&grains.radius), order[..small].iter().fold(0.0, |a, &k| grains.radius[k].max(a))],
             overlap: 0.0,
             contacts: 0,
+            collisions: Collisions::default(),
             extent: extent(&grains.position),
             counts: Counts::default(),
         };

@@ -91,6 +91,11 @@ impl Dem {
             sums.walls += work.tally.wall_work.iter().sum::<f64>();
             state.overlap = work.tally.overlap.iter().fold(state.overlap, |a, &b| a.max(b));
             state.contacts += work.tally.contacts;
+            // The first sweep meets the contacts that are there at the start: they do not begin.
+            if state.counts.steps > 0 {
+                state.collisions.grains += work.tally.begun[0];
+                state.collisions.walls += work.tally.begun[1];
+            }
             for (sum, load) in state.loads.iter_mut().zip(&work.loads) {
                 sum.force += load.force;
                 sum.contacts += load.contacts;

@@ -1,12 +1,12 @@
-//! Contact memory on its way from one outer list to the next.
+//! Touching contacts and their memory on their way from one outer list to the next.
 //!
 //! A contact is known by the identities of its bodies, lower one first, and by
 //! which of their periodic images touch; sorting and wrapping change neither.
 
 use crate::packed::{INDEX, INDEX_BITS, Rest, Tag, image_of};
-use crate::state::{Pairs, WallPairs, memory_place};
+use crate::state::{Pairs, WallPairs, has_touched, memory_place};
 
-/// The contacts that remember something.
+/// The contacts that touched when last swept: none of the others remembers anything.
 #[derive(Clone, Debug, Default)]
 pub struct Handover {
     slots: usize,
@@ -39,7 +39,7 @@ impl Handover {
 
     /// Takes up the contacts of a list.
     pub fn take(&mut self, pairs: &Pairs, tags: &[Tag], rest: &[Rest]) {
-        for p in 0..pairs.len {
+        for p in (0..pairs.len).filter(|&p| has_touched(&pairs.touched, p)) {
             let (i, j) = (pairs.i[p] as usize, (pairs.j[p] & INDEX) as usize);
             let image = image_of(pairs.j[p] >> INDEX_BITS);
             let (key, swapped) = key(tags, rest, (i, j, image));
@@ -50,18 +50,16 @@ impl Handover {
     /// Takes up the contacts with walls.
     pub fn take_walls(&mut self, walls: &WallPairs, tags: &[Tag]) {
         for (p, &(row, wall, feature)) in walls.inner.iter().enumerate() {
-            self.push(wall_key(tags[row as usize].id, wall, feature), false, &walls.memory, p);
+            if has_touched(&walls.touched, p) {
+                self.push(wall_key(tags[row as usize].id, wall, feature), false, &walls.memory, p);
+            }
         }
     }
 
     fn push(&mut self, key: Key, swapped: bool, memory: &[f64], p: usize) {
-        let slot = |s: usize| memory[memory_place(p, s, self.slots)];
-        if (0..self.slots).all(|s| slot(s) == 0.0) {
-            return;
-        }
         self.keys.push(key);
         for s in 0..self.slots {
-            let x = slot(s);
+            let x = memory[memory_place(p, s, self.slots)];
             self.values.push(if swapped && self.odd >> s & 1 == 1 { -x } else { x });
         }
     }
@@ -87,24 +85,24 @@ impl Handover {
         self.start[0] = 0;
     }
 
-    /// Gives what the contact of rows `i` and `j` (in image) remembers to `set`, slot by slot.
+    /// Whether rows `i` and `j` (in image) touched; gives what their contact remembers to `set`, slot by slot.
     pub fn recall(
         &self,
         tags: &[Tag],
         rest: &[Rest],
         contact: (usize, usize, [i32; 3]),
         set: impl FnMut(usize, f64),
-    ) {
+    ) -> bool {
         let (key, swapped) = key(tags, rest, contact);
-        self.find(key, swapped, set);
+        self.find(key, swapped, set)
     }
 
     /// The same for a contact with a wall.
-    pub fn recall_wall(&self, id: u32, wall: u16, feature: u32, set: impl FnMut(usize, f64)) {
-        self.find(wall_key(id, wall, feature), false, set);
+    pub fn recall_wall(&self, id: u32, wall: u16, feature: u32, set: impl FnMut(usize, f64)) -> bool {
+        self.find(wall_key(id, wall, feature), false, set)
     }
 
-    fn find(&self, key: Key, swapped: bool, mut set: impl FnMut(usize, f64)) {
+    fn find(&self, key: Key, swapped: bool, mut set: impl FnMut(usize, f64)) -> bool {
         let range = self.start[key.low as usize] as usize..self.start[key.low as usize + 1] as usize;
         for &record in &self.sorted[range] {
             if self.keys[record as usize] == key {
@@ -112,9 +110,10 @@ impl Handover {
                     let x = self.values[record as usize * self.slots + s];
                     set(s, if swapped && self.odd >> s & 1 == 1 { -x } else { x });
                 }
-                return;
+                return true;
             }
         }
+        false
     }
 }
 

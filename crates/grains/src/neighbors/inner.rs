@@ -5,7 +5,7 @@ use crate::contact::Mask;
 use crate::contact::V3;
 use crate::lanes::Wide;
 use crate::packed::{DUMMIES, INDEX, INDEX_BITS, Row, Tag, image_of};
-use crate::state::{BATCH, Pairs, memory_place};
+use crate::state::{BATCH, Pairs, has_touched, memory_place, note_touched};
 use brazilnut_base::Cell;
 
 /// Where the memory of a pair comes from.
@@ -43,19 +43,27 @@ pub struct Prune<'a> {
 pub struct Spare {
     from: Vec<u32>,
     memory: Vec<f64>,
+    touched: Vec<u8>,
 }
 
 impl Spare {
-    /// Takes a list's places and memory and leaves its own buffers.
-    pub fn swap(&mut self, from: &mut Vec<u32>, memory: &mut Vec<f64>) {
+    /// Takes a list's places, memory and touches and leaves its own buffers.
+    pub fn swap(&mut self, from: &mut Vec<u32>, memory: &mut Vec<f64>, touched: &mut Vec<u8>) {
         std::mem::swap(from, &mut self.from);
         std::mem::swap(memory, &mut self.memory);
+        std::mem::swap(touched, &mut self.touched);
     }
 
     /// Place in the outer list of old entry `q`.
     #[must_use]
     pub fn from(&self, q: usize) -> u32 {
         self.from[q]
+    }
+
+    /// Whether old entry `q` touched.
+    #[must_use]
+    pub fn touched(&self, q: usize) -> bool {
+        has_touched(&self.touched, q)
     }
 
     /// Old memory.
@@ -69,7 +77,7 @@ impl Prune<'_> {
     /// Makes the inner list of `pairs` anew.
     #[inline(always)]
     pub fn run<R: Wide>(&self, pairs: &mut Pairs, spare: &mut Spare) {
-        spare.swap(&mut pairs.from, &mut pairs.memory);
+        spare.swap(&mut pairs.from, &mut pairs.memory, &mut pairs.touched);
         let old = if matches!(self.memory, Memory::Kept) { pairs.len } else { 0 };
         pairs.i.clear();
         pairs.j.clear();
@@ -132,10 +140,9 @@ impl Prune<'_> {
 
     fn carry(&self, pairs: &mut Pairs, spare: &Spare, old: usize) {
         pairs.memory.clear();
-        if self.slots == 0 {
-            return;
-        }
         pairs.memory.resize(pairs.i.len() * self.slots, 0.0);
+        pairs.touched.clear();
+        pairs.touched.resize(pairs.i.len() / BATCH, 0);
         match self.memory {
             Memory::Kept => {
                 let mut q = 0;
@@ -143,7 +150,8 @@ impl Prune<'_> {
                     while q < old && spare.from[q] < pairs.from[p] {
                         q += 1;
                     }
-                    if q < old && spare.from[q] == pairs.from[p] {
+                    if q < old && spare.from[q] == pairs.from[p] && spare.touched(q) {
+                        note_touched(&mut pairs.touched, p);
                         for s in 0..self.slots {
                             pairs.memory[memory_place(p, s, self.slots)] =
                                 spare.memory[memory_place(q, s, self.slots)];
@@ -155,9 +163,12 @@ impl Prune<'_> {
                 for p in 0..pairs.len {
                     let (i, j) = (pairs.i[p] as usize, (pairs.j[p] & INDEX) as usize);
                     let image = image_of(pairs.j[p] >> INDEX_BITS);
-                    handover.recall(self.tags, self.rest, (i, j, image), |s, x| {
+                    let touched = handover.recall(self.tags, self.rest, (i, j, image), |s, x| {
                         pairs.memory[memory_place(p, s, self.slots)] = x;
                     });
+                    if touched {
+                        note_touched(&mut pairs.touched, p);
+                    }
                 }
             }
         }

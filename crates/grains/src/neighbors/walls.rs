@@ -2,7 +2,7 @@
 
 use super::inner::{Memory, Prune, Spare};
 use crate::packed::Row;
-use crate::state::{BATCH, WallPairs, memory_place};
+use crate::state::{BATCH, WallPairs, memory_place, note_touched};
 use crate::wall::Walls;
 
 impl WallPairs {
@@ -23,7 +23,7 @@ impl Prune<'_> {
     /// Makes the inner list of wall contacts anew.
     pub fn walls(&self, list: &mut WallPairs, walls: &Walls, spare: &mut Spare) {
         let old = if matches!(self.memory, Memory::Kept) { list.inner.len() } else { 0 };
-        spare.swap(&mut list.from, &mut list.memory);
+        spare.swap(&mut list.from, &mut list.memory, &mut list.touched);
         list.inner.clear();
         list.from.clear();
         list.class.clear();
@@ -41,11 +41,12 @@ impl Prune<'_> {
                 }
             }
         }
+        let batches = list.inner.len().div_ceil(BATCH);
         list.memory.clear();
-        if self.slots > 0 {
-            list.memory.resize(list.inner.len().next_multiple_of(BATCH) * self.slots, 0.0);
-            self.carry_walls(list, spare, old);
-        }
+        list.memory.resize(batches * BATCH * self.slots, 0.0);
+        list.touched.clear();
+        list.touched.resize(batches, 0);
+        self.carry_walls(list, spare, old);
     }
 
     fn carry_walls(&self, list: &mut WallPairs, spare: &Spare, old: usize) {
@@ -57,7 +58,8 @@ impl Prune<'_> {
                     while q < old && spare.from(q) < list.from[p] {
                         q += 1;
                     }
-                    if q < old && spare.from(q) == list.from[p] {
+                    if q < old && spare.from(q) == list.from[p] && spare.touched(q) {
+                        note_touched(&mut list.touched, p);
                         for s in 0..slots {
                             list.memory[memory_place(p, s, slots)] = spare.memory(memory_place(q, s, slots));
                         }
@@ -65,9 +67,12 @@ impl Prune<'_> {
                 }
                 Memory::Handed(handover) => {
                     let (row, wall, feature) = list.inner[p];
-                    handover.recall_wall(self.tags[row as usize].id, wall, feature, |s, x| {
+                    let touched = handover.recall_wall(self.tags[row as usize].id, wall, feature, |s, x| {
                         list.memory[memory_place(p, s, slots)] = x;
                     });
+                    if touched {
+                        note_touched(&mut list.touched, p);
+                    }
                 }
             }
         }

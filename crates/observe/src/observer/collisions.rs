@@ -1,12 +1,13 @@
 //! How often grains collide.
 
 use super::{Faults, Observe, Setting};
-use crate::view::{Collisions as Counts, View};
+use crate::view::View;
 use brazilnut_base::figure::{Axis, Body, Curve, Figure};
 use brazilnut_base::keys::Key;
 use brazilnut_base::menu::Entry;
 use brazilnut_base::values::Values;
 use brazilnut_base::{Column, Table};
+use brazilnut_grains::Collisions as Counts;
 use serde::{Deserialize, Serialize};
 
 /// Collisions per grain and their rate.
@@ -45,7 +46,7 @@ impl Observe for Collisions {
 
     fn observe(&mut self, view: &View) -> Option<Vec<f64>> {
         let n = view.grains.len() as f64;
-        let Some(now) = view.collisions else { return Some(vec![f64::NAN; 4]) };
+        let now = view.collisions;
         let first = *self.first.get_or_insert(now);
         let before = self.last.replace((view.tick.time, now));
         let per_grain =
@@ -88,8 +89,8 @@ mod tests {
         let mut row = vec![];
         for (t, grains, walls) in [(0.0, 100, 7), (0.5, 110, 9), (1.0, 112, 13)] {
             stage.time = t;
-            let view = View { collisions: Some(Counts { grains, walls }), ..stage.view() };
-            row = c.observe(&view).unwrap();
+            stage.collisions = Counts { grains, walls };
+            row = c.observe(&stage.view()).unwrap();
         }
         // (2*12 + 6)/4 since the start; in the last half second 2*2/4 and 4/4.
         assert_eq!(row, [7.5, 4.0, 2.0, 2.0]);
