@@ -2,7 +2,7 @@
 
 use super::ball;
 use super::grid::Body;
-use brazilnut_base::Vec3;
+use brazilnut_base::{Cell, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// The points between two corners.
@@ -15,6 +15,20 @@ pub struct Region {
 }
 
 impl Region {
+    /// The place `at` (m) and its images one period away along the periodic directions of `cell`: a box
+    /// may hold a part of a grain that lies across a side, or reach across one itself.
+    pub fn images(cell: &Cell, at: Vec3) -> impl Iterator<Item = Vec3> + use<> {
+        let shift = |axis: usize| if cell.is_periodic(axis) { cell.size[axis] } else { 0.0 };
+        let size = Vec3::new(shift(0), shift(1), shift(2));
+        let places = |axis: usize| if size[axis] > 0.0 { -1..=1 } else { 0..=0 };
+        let (x, y, z) = (places(0), places(1), places(2));
+        x.flat_map(move |i| y.clone().map(move |j| (i, j)))
+            .flat_map(move |(i, j)| {
+                z.clone().map(move |k| Vec3::new(f64::from(i), f64::from(j), f64::from(k)))
+            })
+            .map(move |n| at + n * size)
+    }
+
     /// Whether the point `at` lies inside.
     #[must_use]
     pub fn holds(&self, at: Vec3) -> bool {
