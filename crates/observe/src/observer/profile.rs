@@ -60,6 +60,11 @@ impl Observe for Profile {
             "Thickness of a slab or ring, adjusted to divide the cell evenly; one mean diameter if left out.",
         )
         .with(Check::Positive),
+        Key::optional(
+            "bottom",
+            Kind::Quantity(Dimension::LENGTH),
+            "Height at which slabs along z begin, negative to look below the mean place of a floor that moves down; the base of the cell if left out.",
+        ),
         FRAME,
         Key::optional(
             "series",
@@ -83,7 +88,18 @@ impl Observe for Profile {
             Some(axis) if cell.flat_axis() == Some(axis) => {
                 return Err(fault(format!("the cell has no extent along {along}")));
             }
-            Some(axis) => Zones::Grid(Grid::new(cell, vec![Direction::across(cell, axis, size)])),
+            Some(axis) => {
+                let mut slabs = Direction::across(cell, axis, size);
+                if let Some(bottom) = values.number_opt("bottom") {
+                    if axis != 2 || bottom >= cell.size.z {
+                        let message = "is for slabs along z, and lies below the top of the cell";
+                        return Err(vec![("bottom".into(), message.into())]);
+                    }
+                    slabs.origin = bottom;
+                    slabs.count = ((cell.size.z - bottom) / slabs.width).round().max(1.0) as usize;
+                }
+                Zones::Grid(Grid::new(cell, vec![slabs]))
+            }
             None if cell.flat_axis().is_some() => return Err(fault("rings need three dimensions".into())),
             None => {
                 let middle = [0.5 * cell.size.x, 0.5 * cell.size.y];
@@ -268,5 +284,25 @@ mod tests {
         // Over the cell: half of the mass at the mean of 0 to 8; each zone holds one grain, so nothing fluctuates.
         let cell = |name: &str| results[1].1.column(name).unwrap()[0];
         assert!((cell("velocity_z") - 2.0).abs() < 1e-12 && cell("temperature").abs() < 1e-12);
+    }
+
+    #[test]
+    fn slabs_may_begin_below_the_cell() {
+        let mut stage = Stage::new(vec3(1.0, 1.0, 1.0), "walls");
+        // Half in the slab below zero, half above.
+        stage.add(vec3(0.5, 0.5, 0.0), 0.05);
+        let species = [("all".to_string(), 1)];
+        let cell = stage.cell;
+        let v = values(Profile::KEYS, &[("size", 0.2), ("bottom", -0.4)]);
+        let mut p = Profile::from_values(&v, &setting(&cell, &species)).unwrap();
+        p.observe(&stage.view());
+        let table = &p.results()[0].1;
+        let (z, below) = (table.column("z").unwrap(), table.column("mass_below").unwrap());
+        assert_eq!(z.len(), 7);
+        for (k, (low, part)) in [(-0.4, 0.0), (-0.2, 0.5), (0.0, 1.0)].into_iter().enumerate() {
+            assert!((z[k] - low - 0.1).abs() < 1e-12 && (below[k] - part).abs() < 1e-12, "{z:?} {below:?}");
+        }
+        let v = values(Profile::KEYS, &[("bottom", 2.0)]);
+        assert!(Profile::from_values(&v, &setting(&cell, &species)).is_err());
     }
 }
