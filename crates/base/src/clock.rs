@@ -24,10 +24,11 @@ impl Tick {
         Self { time: index as f64 * dt, dt, index }
     }
 
-    /// Time at the end of the step, s.
+    /// Time at the end of the step, s. A step before time 0 ends before it, whatever its number: what the
+    /// shaking moves is at rest there.
     #[must_use]
     pub fn end(&self) -> f64 {
-        (self.index + 1) as f64 * self.dt
+        if self.time < 0.0 { self.time + self.dt } else { (self.index + 1) as f64 * self.dt }
     }
 
     /// Part `k` of this step cut into `n` equal parts.
@@ -35,5 +36,19 @@ impl Tick {
     pub fn substep(&self, k: u64, n: u64) -> Self {
         let dt = self.dt / n as f64;
         Self { time: self.time + k as f64 * dt, dt, index: self.index * n + k }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_meet_and_those_of_settling_stay_before_zero() {
+        for k in 0..1000 {
+            assert_eq!(Tick::at(k, 1e-3).end(), Tick::at(k + 1, 1e-3).time);
+        }
+        let settling = Tick { time: -1.0, ..Tick::at(123_456_789, 1e-3) };
+        assert!(settling.end() < 0.0 && settling.substep(3, 4).end() < 0.0);
     }
 }
