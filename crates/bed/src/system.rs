@@ -1,5 +1,7 @@
 //! What a model needs from the rest of the case, and what it hands back.
 
+use crate::bed_equation::BedEquation;
+use crate::shake::Shake;
 use brazilnut_base::Table;
 use brazilnut_base::figure::Figure;
 use brazilnut_base::motion::Motion;
@@ -45,42 +47,163 @@ pub struct System {
     pub intruder_diameter: Option<f64>,
 }
 
-impl System {
+/// Reads the specification of one model: its own table first, then the common tables of the case.
+/// Notes what neither has.
+pub(crate) struct Reader<'a> {
+    /// The table of the model.
+    pub table: &'a Values,
+    /// The common tables.
+    pub system: &'a System,
+    name: &'static str,
+    refusals: Refusals,
+}
+
+impl<'a> Reader<'a> {
+    /// For the model whose table is called `name`.
+    pub fn new(name: &'static str, table: &'a Values, system: &'a System) -> Self {
+        Self { table, system, name, refusals: Refusals::new() }
+    }
+
+    /// A value that must be there from somewhere; `otherwise` says where else it may come from.
+    pub fn needed(&mut self, key: &'static str, common: Option<f64>, otherwise: &str) -> f64 {
+        self.table.number_opt(key).or(common).unwrap_or_else(|| {
+            self.refusals.push((key, format!("not given: set [{}] {key}{otherwise}", self.name)));
+            f64::NAN
+        })
+    }
+
+    /// A value that has a default.
+    pub fn number(&self, key: &str, default: f64) -> f64 {
+        self.table.number_opt(key).unwrap_or(default)
+    }
+
+    /// A count that has a default.
+    pub fn count(&self, key: &str, default: u32) -> u32 {
+        self.table.integer_opt(key).map_or(default, |n| n as u32)
+    }
+
     /// The porosity: the model's table, else the settled bed, else random packing.
-    pub(crate) fn porosity(&self, table: &Values) -> f64 {
-        table.number_opt("porosity").or(self.porosity).unwrap_or(RANDOM_PACKING)
+    pub fn porosity(&self) -> f64 {
+        self.number("porosity", self.system.porosity.unwrap_or(RANDOM_PACKING))
     }
 
-    /// The height: the model's table, else the settled bed, else the grains at this porosity.
-    pub(crate) fn height(&self, table: &Values, porosity: f64) -> Option<f64> {
-        let packed = self.solids_height.map(|s| s / (1.0 - porosity));
-        table.number_opt("height").or(self.bed_height).or(packed)
+    /// The height of the settled bed, else of the grains at this porosity.
+    pub fn bed_height(&self, porosity: f64) -> Option<f64> {
+        self.system.bed_height.or(self.system.solids_height.map(|s| s / (1.0 - porosity)))
+    }
+
+    /// The mean diameter of the grains.
+    pub fn diameter(&mut self) -> f64 {
+        self.needed("diameter", self.system.grain_diameter, ", or describe grains")
+    }
+
+    /// The density of the grains.
+    pub fn grain_density(&mut self) -> f64 {
+        self.needed("grain_density", self.system.grain_density, ", or describe grains")
+    }
+
+    /// The viscosity of a fluid that must be there.
+    pub fn viscosity(&mut self) -> f64 {
+        self.system.viscosity.unwrap_or_else(|| {
+            self.refusals
+                .push(("viscosity", "not given: the bed moves against a fluid, add a [fluid] table".into()));
+            f64::NAN
+        })
+    }
+
+    /// The bed equation.
+    pub fn bed_equation(&self, default: BedEquation) -> BedEquation {
+        self.table.text_opt("bed_equation").and_then(BedEquation::from_name).unwrap_or(default)
+    }
+
+    /// The specification, if nothing was missing.
+    pub fn done<T>(self, spec: T) -> Result<T, Refusals> {
+        if self.refusals.is_empty() { Ok(spec) } else { Err(self.refusals) }
     }
 }
 
-/// Takes a value that must be there from somewhere; notes its absence otherwise.
-pub(crate) fn need(value: Option<f64>, key: &'static str, remedy: &str, refusals: &mut Refusals) -> f64 {
-    value.unwrap_or_else(|| {
-        refusals.push((key, format!("not given: {remedy}")));
-        f64::NAN
-    })
-}
+/// Judges a specification and notes every key at fault.
+#[derive(Default)]
+pub(crate) struct Judge(Refusals);
 
-/// Notes a refusal unless `holds`.
-pub(crate) fn demand(
-    holds: bool,
-    key: &'static str,
-    reason: impl FnOnce() -> String,
-    refusals: &mut Refusals,
-) {
-    if !holds {
-        refusals.push((key, reason()));
+impl Judge {
+    /// Notes a refusal unless `holds`.
+    pub fn demand(&mut self, holds: bool, key: &'static str, reason: impl FnOnce() -> String) {
+        if !holds {
+            self.0.push((key, reason()));
+        }
     }
-}
 
-/// `Ok` if nothing was refused.
-pub(crate) fn verdict(refusals: Refusals) -> Result<(), Refusals> {
-    if refusals.is_empty() { Ok(()) } else { Err(refusals) }
+    /// Gravity must pull down; `without` says what happens otherwise.
+    pub fn gravity(&mut self, gravity: f64, without: &str) {
+        let holds = gravity > 0.0 && gravity.is_finite();
+        self.demand(holds, "gravity", || format!("is {gravity} m/s²: without gravity {without}"));
+    }
+
+    /// The floor must throw the bed in a way the model can follow.
+    pub fn shake(&mut self, shake: &Motion, gravity: f64) {
+        if let Err(reason) = Shake::new(shake, gravity) {
+            self.0.push(("gamma", reason));
+        }
+    }
+
+    /// Values above zero, with their units.
+    pub fn positive<const N: usize>(&mut self, values: [(f64, &'static str, &str); N]) {
+        for (x, key, unit) in values {
+            let holds = x > 0.0 && x.is_finite();
+            self.demand(holds, key, || {
+                format!("is {x} {unit}, must be greater than zero").replace("  ", " ")
+            });
+        }
+    }
+
+    /// Values of zero or more, with their units.
+    pub fn not_negative<const N: usize>(&mut self, values: [(f64, &'static str, &str); N]) {
+        for (x, key, unit) in values {
+            let holds = x >= 0.0 && x.is_finite();
+            self.demand(holds, key, || format!("is {x} {unit}, must be zero or greater").replace("  ", " "));
+        }
+    }
+
+    /// Porosity is a fraction.
+    pub fn porosity(&mut self, x: f64) {
+        self.demand(x > 0.0 && x < 1.0, "porosity", || {
+            format!("is {x}, must lie between 0 and 1: it is the fluid fraction of the bed")
+        });
+    }
+
+    /// The fluid must be lighter than the grains.
+    pub fn sinks(&mut self, fluid: f64, grains: f64) {
+        self.demand(fluid < grains, "density", || {
+            format!("of the fluid ({fluid} kg/m³) is not below that of the grains ({grains} kg/m³): such a bed floats")
+        });
+    }
+
+    /// A bed of `height` (m) must fit into the cell, if that is known.
+    pub fn fits(&mut self, key: &'static str, height: f64, cell: Option<f64>) {
+        if let Some(cell) = cell {
+            self.demand(height <= cell, key, || {
+                format!("puts the bed to {height} m and the cell is {cell} m high")
+            });
+        }
+    }
+
+    /// The relative error of an integration step.
+    pub fn tolerance(&mut self, x: f64) {
+        self.demand((1e-13..=1e-3).contains(&x), "tolerance", || {
+            format!("is {x}, must lie between 1e-13 and 1e-3")
+        });
+    }
+
+    /// A count of at least `least`.
+    pub fn count(&mut self, n: u32, least: u32, key: &'static str) {
+        self.demand(n >= least, key, || format!("must be at least {least}"));
+    }
+
+    /// `Ok` if nothing was refused.
+    pub fn verdict(self) -> Result<(), Refusals> {
+        if self.0.is_empty() { Ok(()) } else { Err(self.0) }
+    }
 }
 
 /// The refusal of an integration that came to a standstill at time `t`, s.

@@ -25,8 +25,7 @@ mod tests;
 pub use ride::{BrazilNut, Rise, solve};
 
 use crate::bed_equation::{BedEquation, Medium, menu};
-use crate::shake::Shake;
-use crate::system::{Refusals, System, demand, need, verdict};
+use crate::system::{Judge, Reader, Refusals, System};
 use brazilnut_base::keys::{Check, Key, Kind};
 use brazilnut_base::motion::Motion;
 use brazilnut_base::units::Dimension;
@@ -98,63 +97,30 @@ impl BrazilNutSpec {
     /// # Errors
     /// Every value that is missing or refused, with the reason.
     pub fn from_values(table: &Values, system: &System) -> Result<Self, Refusals> {
-        let mut refusals = Refusals::new();
-        let r = &mut refusals;
-        let porosity = system.porosity(table);
+        let mut r = Reader::new("brazil-nut-column", table, system);
+        let porosity = r.porosity();
+        let intruder = ", or describe a grain called intruder";
         let spec = Self {
             shake: system.shake.clone(),
             gravity: system.gravity,
-            height: need(
-                system.height(table, porosity),
-                "height",
-                "set [brazil-nut-column] height, or describe grains to pack",
-                r,
-            ),
+            height: r.needed("height", r.bed_height(porosity), ", or describe grains to pack"),
             cell_height: system.cell_height,
             porosity,
-            diameter: need(
-                table.number_opt("diameter").or(system.grain_diameter),
-                "diameter",
-                "set [brazil-nut-column] diameter, or describe grains",
-                r,
-            ),
-            grain_density: need(
-                table.number_opt("grain_density").or(system.grain_density),
-                "grain_density",
-                "set [brazil-nut-column] grain_density, or describe grains",
-                r,
-            ),
+            diameter: r.diameter(),
+            grain_density: r.grain_density(),
             fluid_density: system.fluid_density.unwrap_or(0.0),
-            viscosity: need(
-                system.viscosity,
-                "viscosity",
-                "the bed moves against a fluid: add a [fluid] table",
-                r,
-            ),
-            bed_equation: table
-                .text_opt("bed_equation")
-                .and_then(BedEquation::from_name)
-                .unwrap_or(BedEquation::Ergun),
-            intruder_diameter: need(
-                table.number_opt("intruder_diameter").or(system.intruder_diameter),
-                "intruder_diameter",
-                "set [brazil-nut-column] intruder_diameter, or describe a grain called intruder",
-                r,
-            ),
-            intruder_density: need(
-                table.number_opt("intruder_density").or(system.intruder_density),
-                "intruder_density",
-                "set [brazil-nut-column] intruder_density, or describe a grain called intruder",
-                r,
-            ),
-            alpha: need(table.number_opt("alpha"), "alpha", "set [brazil-nut-column] alpha", r),
-            range: need(table.number_opt("range"), "range", "set [brazil-nut-column] range", r),
-            drag_factor: table.number_opt("drag_factor").unwrap_or(1.0 / (1.0 - porosity)),
-            start: table.number_opt("start").unwrap_or(0.0),
-            cycles: table.integer_opt("cycles").map_or(600, |n| n as u32),
-            tolerance: table.number_opt("tolerance").unwrap_or(1e-10),
+            viscosity: r.viscosity(),
+            bed_equation: r.bed_equation(BedEquation::Ergun),
+            intruder_diameter: r.needed("intruder_diameter", system.intruder_diameter, intruder),
+            intruder_density: r.needed("intruder_density", system.intruder_density, intruder),
+            alpha: r.needed("alpha", None, ""),
+            range: r.needed("range", None, ""),
+            drag_factor: r.number("drag_factor", 1.0 / (1.0 - porosity)),
+            start: r.number("start", 0.0),
+            cycles: r.count("cycles", 600),
+            tolerance: r.number("tolerance", 1e-10),
         };
-        verdict(refusals)?;
+        let spec = r.done(spec)?;
         spec.validate()?;
         Ok(spec)
     }
@@ -164,91 +130,39 @@ impl BrazilNutSpec {
     /// # Errors
     /// Every key at fault with the reason.
     pub fn validate(&self) -> Result<(), Refusals> {
-        let mut r = Refusals::new();
-        let positive = |x: f64| x > 0.0 && x.is_finite();
-        demand(
-            positive(self.gravity),
-            "gravity",
-            || format!("is {} m/s²: without gravity the bed never lands", self.gravity),
-            &mut r,
-        );
-        if let Err(reason) = Shake::new(&self.shake, self.gravity) {
-            r.push(("gamma", reason));
-        }
-        for (value, key, unit) in [
+        let mut judge = Judge::default();
+        judge.gravity(self.gravity, "the bed never lands");
+        judge.shake(&self.shake, self.gravity);
+        judge.positive([
             (self.height, "height", "m"),
             (self.diameter, "diameter", "m"),
             (self.grain_density, "grain_density", "kg/m³"),
             (self.viscosity, "viscosity", "Pa s"),
             (self.intruder_diameter, "intruder_diameter", "m"),
             (self.range, "range", "m"),
-        ] {
-            demand(positive(value), key, || format!("is {value} {unit}, must be greater than zero"), &mut r);
-        }
-        for (value, key) in [(self.alpha, "alpha"), (self.drag_factor, "drag_factor"), (self.start, "start")]
-        {
-            demand(
-                value >= 0.0 && value.is_finite(),
-                key,
-                || format!("is {value}, must be zero or greater"),
-                &mut r,
-            );
-        }
-        demand(
-            self.porosity > 0.0 && self.porosity < 1.0,
-            "porosity",
-            || format!("is {}, must lie between 0 and 1: it is the fluid fraction of the bed", self.porosity),
-            &mut r,
-        );
-        demand(
-            self.fluid_density >= 0.0 && self.fluid_density < self.grain_density,
-            "density",
-            || {
-                format!(
-                    "of the fluid ({} kg/m³) must lie between 0 and that of the grains ({} kg/m³)",
-                    self.fluid_density, self.grain_density
-                )
-            },
-            &mut r,
-        );
-        demand(
-            self.intruder_density > self.fluid_density,
-            "intruder_density",
-            || {
-                format!(
-                    "({} kg/m³) is not above that of the fluid: the model is for a dense intruder",
-                    self.intruder_density
-                )
-            },
-            &mut r,
-        );
-        demand(
-            self.start + self.intruder_diameter < self.height,
-            "intruder_diameter",
-            || {
-                format!(
-                    "({} m) and the start at {} m leave no depth in a bed of {} m",
-                    self.intruder_diameter, self.start, self.height
-                )
-            },
-            &mut r,
-        );
-        if let Some(cell) = self.cell_height {
-            demand(
-                self.height <= cell,
-                "height",
-                || format!("of the bed ({} m) exceeds that of the cell ({cell} m)", self.height),
-                &mut r,
-            );
-        }
-        demand(self.cycles >= 1, "cycles", || "must be at least 1".into(), &mut r);
-        demand(
-            (1e-13..=1e-3).contains(&self.tolerance),
-            "tolerance",
-            || format!("is {}, must lie between 1e-13 and 1e-3", self.tolerance),
-            &mut r,
-        );
-        verdict(r)
+        ]);
+        judge.not_negative([
+            (self.alpha, "alpha", "N"),
+            (self.drag_factor, "drag_factor", ""),
+            (self.start, "start", "m"),
+            (self.fluid_density, "density", "kg/m³"),
+        ]);
+        judge.porosity(self.porosity);
+        judge.sinks(self.fluid_density, self.grain_density);
+        judge.demand(self.intruder_density > self.fluid_density, "intruder_density", || {
+            let density = self.intruder_density;
+            format!("({density} kg/m³) is not above that of the fluid: the model is for a dense intruder")
+        });
+        judge.demand(self.start + self.intruder_diameter < self.height, "intruder_diameter", || {
+            let Self { intruder_diameter, start, height, .. } = self;
+            format!(
+                "({intruder_diameter} m) and the start at {start} m leave no depth in a bed of {height} m"
+            )
+        });
+        judge.fits("height", self.height, self.cell_height);
+        judge.count(self.cycles, 1, "cycles");
+        judge.tolerance(self.tolerance);
+        judge.verdict()
     }
 
     /// The bed as the bed equation sees it.

@@ -29,8 +29,7 @@ mod tests;
 pub use history::{ColumnSample, CoupledColumns, Moment, collapse_exponent, solve};
 
 use crate::bed_equation::{BedEquation, Medium, menu};
-use crate::shake::Shake;
-use crate::system::{Refusals, System, demand, need, verdict};
+use crate::system::{Judge, Reader, Refusals, System};
 use brazilnut_base::keys::{Check, Key, Kind};
 use brazilnut_base::motion::Motion;
 use brazilnut_base::units::Dimension;
@@ -141,10 +140,9 @@ impl CoupledColumnsSpec {
     /// # Errors
     /// Every value that is missing or refused, with the reason.
     pub fn from_values(table: &Values, system: &System) -> Result<Self, Refusals> {
-        let mut refusals = Refusals::new();
-        let r = &mut refusals;
-        let porosity = system.porosity(table);
-        let total = table.number_opt("total_height").or(system.height(table, porosity).map(|h| 2.0 * h));
+        let mut r = Reader::new("coupled-columns", table, system);
+        let porosity = r.porosity();
+        let both = r.bed_height(porosity).map(|h| 2.0 * h);
         let pressure_ratio = match table.text_opt("pressure_ratio") {
             Some("fitted") => PressureRatio::Power(FITTED_EXPONENT),
             Some("long-channel") => PressureRatio::Power(1.0),
@@ -153,40 +151,17 @@ impl CoupledColumnsSpec {
         let spec = Self {
             shake: system.shake.clone(),
             gravity: system.gravity,
-            total_height: need(
-                total,
-                "total_height",
-                "set [coupled-columns] total_height, or describe grains to pack",
-                r,
-            ),
-            height_difference: table.number_opt("height_difference").unwrap_or(4e-3),
+            total_height: r.needed("total_height", both, ", or describe grains to pack"),
+            height_difference: r.number("height_difference", 4e-3),
             cell_height: system.cell_height,
             porosity,
-            diameter: need(
-                table.number_opt("diameter").or(system.grain_diameter),
-                "diameter",
-                "set [coupled-columns] diameter, or describe grains",
-                r,
-            ),
-            grain_density: need(
-                table.number_opt("grain_density").or(system.grain_density),
-                "grain_density",
-                "set [coupled-columns] grain_density, or describe grains",
-                r,
-            ),
+            diameter: r.diameter(),
+            grain_density: r.grain_density(),
             fluid_density: system.fluid_density.unwrap_or(0.0),
-            viscosity: need(
-                system.viscosity,
-                "viscosity",
-                "the columns move against a fluid: add a [fluid] table",
-                r,
-            ),
-            bed_equation: table
-                .text_opt("bed_equation")
-                .and_then(BedEquation::from_name)
-                .unwrap_or(BedEquation::ErgunKozeny),
-            area_ratio: table.number_opt("area_ratio").unwrap_or(2.5),
-            coupling: table.number_opt("coupling").unwrap_or(0.019),
+            viscosity: r.viscosity(),
+            bed_equation: r.bed_equation(BedEquation::ErgunKozeny),
+            area_ratio: r.number("area_ratio", 2.5),
+            coupling: r.number("coupling", 0.019),
             pressure_ratio,
             buoyant: table.flag("buoyant"),
             resistance: if table.text_opt("resistance") == Some("bed") {
@@ -195,11 +170,11 @@ impl CoupledColumnsSpec {
                 Resistance::Fluid
             },
             relaunch: table.flag("relaunch"),
-            duration: table.number_opt("duration").unwrap_or(30.0),
-            tolerance: table.number_opt("tolerance").unwrap_or(1e-8),
-            phases: table.integer_opt("phases").map_or(360, |n| n as u32),
+            duration: r.number("duration", 30.0),
+            tolerance: r.number("tolerance", 1e-8),
+            phases: r.count("phases", 360),
         };
-        verdict(refusals)?;
+        let spec = r.done(spec)?;
         spec.validate()?;
         Ok(spec)
     }
@@ -209,103 +184,39 @@ impl CoupledColumnsSpec {
     /// # Errors
     /// Every key at fault with the reason.
     pub fn validate(&self) -> Result<(), Refusals> {
-        let mut r = Refusals::new();
-        let positive = |x: f64| x > 0.0 && x.is_finite();
-        demand(
-            positive(self.gravity),
-            "gravity",
-            || format!("is {} m/s²: without gravity the beds never land", self.gravity),
-            &mut r,
-        );
-        if let Err(reason) = Shake::new(&self.shake, self.gravity) {
-            r.push(("gamma", reason));
-        }
-        for (value, key, unit) in [
+        let mut judge = Judge::default();
+        judge.gravity(self.gravity, "the beds never land");
+        judge.shake(&self.shake, self.gravity);
+        judge.positive([
             (self.total_height, "total_height", "m"),
             (self.diameter, "diameter", "m"),
             (self.grain_density, "grain_density", "kg/m³"),
             (self.viscosity, "viscosity", "Pa s"),
             (self.area_ratio, "area_ratio", ""),
             (self.duration, "duration", "s"),
-        ] {
-            demand(positive(value), key, || format!("is {value} {unit}, must be greater than zero"), &mut r);
-        }
-        demand(
-            self.porosity > 0.0 && self.porosity < 1.0,
-            "porosity",
-            || {
-                format!(
-                    "is {}, must lie between 0 and 1: it is the fluid fraction of the beds",
-                    self.porosity
-                )
-            },
-            &mut r,
-        );
-        demand(
-            self.fluid_density >= 0.0 && self.fluid_density.is_finite(),
-            "density",
-            || format!("of the fluid is {} kg/m³, must be zero or greater", self.fluid_density),
-            &mut r,
-        );
+        ]);
+        judge.porosity(self.porosity);
+        judge.not_negative([(self.fluid_density, "density", "kg/m³"), (self.coupling, "coupling", "")]);
         if self.buoyant {
-            demand(
-                self.fluid_density > 0.0,
-                "density",
-                || "of the fluid is zero: a buoyant model needs a fluid with mass".into(),
-                &mut r,
-            );
-            demand(
-                self.fluid_density < self.grain_density,
-                "density",
-                || {
-                    format!(
-                        "of the fluid ({} kg/m³) is not below that of the grains ({} kg/m³): such a bed floats",
-                        self.fluid_density, self.grain_density
-                    )
-                },
-                &mut r,
-            );
+            let reason = || "of the fluid is zero: a buoyant model needs a fluid with mass".into();
+            judge.demand(self.fluid_density > 0.0, "density", reason);
+            judge.sinks(self.fluid_density, self.grain_density);
         }
         let least = (self.total_height - self.height_difference.abs()) / 2.0;
-        demand(
-            least > self.diameter,
-            "height_difference",
-            || {
-                format!(
-                    "of {} m leaves a column of {least:.2e} m, less than one grain",
-                    self.height_difference
-                )
-            },
-            &mut r,
-        );
-        if let Some(cell) = self.cell_height {
-            let most = (self.total_height + self.height_difference.abs()) / 2.0;
-            demand(
-                most <= cell,
-                "total_height",
-                || format!("puts {most} m into one column and the cell is {cell} m high"),
-                &mut r,
-            );
-        }
-        demand(
-            self.coupling >= 0.0 && self.coupling.is_finite(),
-            "coupling",
-            || format!("is {}, must be zero or greater", self.coupling),
-            &mut r,
-        );
+        judge.demand(least > self.diameter, "height_difference", || {
+            let difference = self.height_difference;
+            format!("of {difference} m leaves a column of {least:.2e} m, less than one grain")
+        });
+        let most = (self.total_height + self.height_difference.abs()) / 2.0;
+        judge.fits("total_height", most, self.cell_height);
         let ratio = match self.pressure_ratio {
-            PressureRatio::Constant(x) => positive(x),
+            PressureRatio::Constant(x) => x > 0.0 && x.is_finite(),
             PressureRatio::Power(p) => p.is_finite(),
         };
-        demand(ratio, "pressure_ratio", || "must be greater than zero".into(), &mut r);
-        demand(
-            (1e-13..=1e-3).contains(&self.tolerance),
-            "tolerance",
-            || format!("is {}, must lie between 1e-13 and 1e-3", self.tolerance),
-            &mut r,
-        );
-        demand(self.phases >= 8, "phases", || "must be at least 8".into(), &mut r);
-        verdict(r)
+        judge.demand(ratio, "pressure_ratio", || "must be greater than zero".into());
+        judge.tolerance(self.tolerance);
+        judge.count(self.phases, 8, "phases");
+        judge.verdict()
     }
 
     /// The beds as the bed equation sees them.

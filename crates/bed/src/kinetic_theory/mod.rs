@@ -22,7 +22,7 @@ mod tests;
 
 pub use profile::{KineticTheory, Layer, solve};
 
-use crate::system::{Refusals, System, demand, need, verdict};
+use crate::system::{Judge, Reader, Refusals, System};
 use brazilnut_base::keys::{Check, Key, Kind};
 use brazilnut_base::units::Dimension;
 use brazilnut_base::values::Values;
@@ -72,50 +72,26 @@ impl KineticTheorySpec {
     /// # Errors
     /// Every value that is missing or refused, with the reason.
     pub fn from_values(table: &Values, system: &System) -> Result<Self, Refusals> {
-        let mut refusals = Refusals::new();
-        let r = &mut refusals;
-        let diameter = need(
-            table.number_opt("diameter").or(system.grain_diameter),
-            "diameter",
-            "set [kinetic-theory] diameter, or describe grains",
-            r,
-        );
-        let restitution = need(
-            table.number_opt("restitution").or(system.restitution),
-            "restitution",
-            "set [kinetic-theory] restitution, or that of the contact",
-            r,
-        );
-        let hold_up = table.number_opt("hold_up").or(system.solids_height.map(|s| s / diameter));
+        let mut r = Reader::new("kinetic-theory", table, system);
+        let diameter = r.diameter();
+        let restitution = r.needed("restitution", system.restitution, ", or that of the contact");
+        let hold_up = system.solids_height.map(|s| s / diameter);
         let squares =
             system.shake.harmonics.iter().map(|h| 0.5 * (TAU * h.frequency * h.amplitude.z).powi(2));
         let shaken = Some(squares.sum::<f64>().sqrt()).filter(|&v| v > 0.0);
         let spec = Self {
             gravity: system.gravity,
             diameter,
-            hold_up: need(
-                hold_up,
-                "hold_up",
-                "set [kinetic-theory] hold_up, or describe grains and the cell's base",
-                r,
-            ),
+            hold_up: r.needed("hold_up", hold_up, ", or describe grains and the cell's base"),
             cell_height: system.cell_height,
-            floor_velocity: need(
-                table.number_opt("floor_velocity").or(shaken),
-                "floor_velocity",
-                "set [kinetic-theory] floor_velocity, or shake vertically",
-                r,
-            ),
+            floor_velocity: r.needed("floor_velocity", shaken, ", or shake vertically"),
             restitution,
-            floor_restitution: table
-                .number_opt("floor_restitution")
-                .or(system.wall_restitution)
-                .unwrap_or(restitution),
-            densest: table.number_opt("densest").unwrap_or(0.74),
-            tolerance: table.number_opt("tolerance").unwrap_or(1e-9),
-            points: table.integer_opt("points").map_or(400, |n| n as u32),
+            floor_restitution: r.number("floor_restitution", system.wall_restitution.unwrap_or(restitution)),
+            densest: r.number("densest", 0.74),
+            tolerance: r.number("tolerance", 1e-9),
+            points: r.count("points", 400),
         };
-        verdict(refusals)?;
+        let spec = r.done(spec)?;
         spec.validate()?;
         Ok(spec)
     }
@@ -125,77 +101,27 @@ impl KineticTheorySpec {
     /// # Errors
     /// Every key at fault with the reason.
     pub fn validate(&self) -> Result<(), Refusals> {
-        let mut r = Refusals::new();
-        let positive = |x: f64| x > 0.0 && x.is_finite();
-        demand(
-            positive(self.gravity),
-            "gravity",
-            || format!("is {} m/s²: without gravity the layer does not stay on the floor", self.gravity),
-            &mut r,
-        );
-        demand(
-            positive(self.diameter),
-            "diameter",
-            || format!("is {} m, must be greater than zero", self.diameter),
-            &mut r,
-        );
-        demand(
-            positive(self.hold_up),
-            "hold_up",
-            || format!("is {}, must be greater than zero", self.hold_up),
-            &mut r,
-        );
-        demand(
-            positive(self.floor_velocity),
-            "floor_velocity",
-            || {
-                format!(
-                    "is {} m/s, must be greater than zero: a floor at rest feeds no layer",
-                    self.floor_velocity
-                )
-            },
-            &mut r,
-        );
-        demand(
-            self.densest > 0.0 && self.densest < 1.0,
-            "densest",
-            || format!("is {}, must lie between 0 and 1", self.densest),
-            &mut r,
-        );
+        let mut judge = Judge::default();
+        judge.gravity(self.gravity, "the layer does not stay on the floor");
+        judge.positive([
+            (self.diameter, "diameter", "m"),
+            (self.hold_up, "hold_up", ""),
+            (self.floor_velocity, "floor_velocity", "m/s"),
+        ]);
+        let densest = self.densest;
+        judge.demand(densest > 0.0 && densest < 1.0, "densest", || {
+            format!("is {densest}, must lie between 0 and 1")
+        });
         for (e, key) in [(self.restitution, "restitution"), (self.floor_restitution, "floor_restitution")] {
-            demand((0.0..=1.0).contains(&e), key, || format!("is {e}, must lie between 0 and 1"), &mut r);
+            judge.demand((0.0..=1.0).contains(&e), key, || format!("is {e}, must lie between 0 and 1"));
         }
-        demand(
-            self.restitution < 1.0 || self.floor_restitution < 1.0,
-            "restitution",
-            || {
-                "is 1 between grains and at the floor: nothing dissipates, the layer heats up without end"
-                    .into()
-            },
-            &mut r,
-        );
-        if let Some(cell) = self.cell_height {
-            let least = self.hold_up * self.diameter / self.densest;
-            demand(
-                least <= cell,
-                "hold_up",
-                || {
-                    format!(
-                        "of {} cannot be met: at the densest packing {} it is {least:.4} m high and the cell is {cell} m",
-                        self.hold_up, self.densest
-                    )
-                },
-                &mut r,
-            );
-        }
-        demand(
-            (1e-13..=1e-3).contains(&self.tolerance),
-            "tolerance",
-            || format!("is {}, must lie between 1e-13 and 1e-3", self.tolerance),
-            &mut r,
-        );
-        demand(self.points >= 2, "points", || "must be at least 2".into(), &mut r);
-        verdict(r)
+        judge.demand(self.restitution < 1.0 || self.floor_restitution < 1.0, "restitution", || {
+            "is 1 between grains and at the floor: nothing dissipates, the layer heats up without end".into()
+        });
+        judge.fits("hold_up", self.hold_up * self.diameter / densest, self.cell_height);
+        judge.tolerance(self.tolerance);
+        judge.count(self.points, 2, "points");
+        judge.verdict()
     }
 
     /// V_b = V/√(d g) (Lan eq. 4-1-3).

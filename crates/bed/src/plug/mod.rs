@@ -19,8 +19,7 @@ mod tests;
 pub use flight::{Flight, Peak, Peaks, Plug, Sample, solve};
 
 use crate::bed_equation::{BedEquation, Medium, menu};
-use crate::shake::Shake;
-use crate::system::{Refusals, System, demand, need, verdict};
+use crate::system::{Judge, Reader, Refusals, System};
 use brazilnut_base::keys::{Check, Key, Kind};
 use brazilnut_base::motion::Motion;
 use brazilnut_base::units::Dimension;
@@ -112,44 +111,25 @@ impl PlugSpec {
     /// # Errors
     /// Every value that is missing or refused, with the reason.
     pub fn from_values(table: &Values, system: &System, modified: bool) -> Result<Self, Refusals> {
-        let mut refusals = Refusals::new();
-        let r = &mut refusals;
-        let porosity = system.porosity(table);
+        let mut r = Reader::new("plug", table, system);
+        let porosity = r.porosity();
         let spec = Self {
             shake: system.shake.clone(),
             gravity: system.gravity,
-            height: need(
-                system.height(table, porosity),
-                "height",
-                "set [plug] height, or describe grains to pack",
-                r,
-            ),
+            height: r.needed("height", r.bed_height(porosity), ", or describe grains to pack"),
             cell_height: system.cell_height,
             porosity,
-            diameter: need(
-                table.number_opt("diameter").or(system.grain_diameter),
-                "diameter",
-                "set [plug] diameter, or describe grains",
-                r,
-            ),
-            grain_density: need(
-                table.number_opt("grain_density").or(system.grain_density),
-                "grain_density",
-                "set [plug] grain_density, or describe grains",
-                r,
-            ),
+            diameter: r.diameter(),
+            grain_density: r.grain_density(),
             fluid_density: system.fluid_density.unwrap_or(0.0),
             viscosity: system.viscosity.unwrap_or(0.0),
-            bed_equation: table
-                .text_opt("bed_equation")
-                .and_then(BedEquation::from_name)
-                .unwrap_or(BedEquation::Ergun),
+            bed_equation: r.bed_equation(BedEquation::Ergun),
             modified,
-            tolerance: table.number_opt("tolerance").unwrap_or(1e-10),
-            cycles: table.integer_opt("cycles").map_or(500, |n| n as u32),
-            phases: table.integer_opt("phases").map_or(360, |n| n as u32),
+            tolerance: r.number("tolerance", 1e-10),
+            cycles: r.count("cycles", 500),
+            phases: r.count("phases", 360),
         };
-        verdict(refusals)?;
+        let spec = r.done(spec)?;
         spec.validate()?;
         Ok(spec)
     }
@@ -159,70 +139,24 @@ impl PlugSpec {
     /// # Errors
     /// Every key at fault with the reason.
     pub fn validate(&self) -> Result<(), Refusals> {
-        let mut r = Refusals::new();
-        let positive = |x: f64| x > 0.0 && x.is_finite();
-        demand(
-            positive(self.gravity),
-            "gravity",
-            || format!("is {} m/s²: without gravity the plug never lands", self.gravity),
-            &mut r,
-        );
-        if let Err(reason) = Shake::new(&self.shake, self.gravity) {
-            r.push(("gamma", reason));
-        }
-        for (value, key, unit) in [
+        let mut judge = Judge::default();
+        judge.gravity(self.gravity, "the plug never lands");
+        judge.shake(&self.shake, self.gravity);
+        judge.positive([
             (self.height, "height", "m"),
             (self.diameter, "diameter", "m"),
             (self.grain_density, "grain_density", "kg/m³"),
-        ] {
-            demand(positive(value), key, || format!("is {value} {unit}, must be greater than zero"), &mut r);
+        ]);
+        judge.porosity(self.porosity);
+        judge.not_negative([(self.fluid_density, "density", "kg/m³"), (self.viscosity, "viscosity", "Pa s")]);
+        if self.modified {
+            judge.sinks(self.fluid_density, self.grain_density);
         }
-        demand(
-            self.porosity > 0.0 && self.porosity < 1.0,
-            "porosity",
-            || format!("is {}, must lie between 0 and 1: it is the fluid fraction of the bed", self.porosity),
-            &mut r,
-        );
-        demand(
-            self.fluid_density >= 0.0 && self.fluid_density.is_finite(),
-            "density",
-            || format!("of the fluid is {} kg/m³, must be zero or greater", self.fluid_density),
-            &mut r,
-        );
-        demand(
-            self.viscosity >= 0.0 && self.viscosity.is_finite(),
-            "viscosity",
-            || format!("is {} Pa s, must be zero or greater", self.viscosity),
-            &mut r,
-        );
-        demand(
-            !self.modified || self.fluid_density < self.grain_density,
-            "density",
-            || {
-                format!(
-                    "of the fluid ({} kg/m³) is not below that of the grains ({} kg/m³): such a bed floats",
-                    self.fluid_density, self.grain_density
-                )
-            },
-            &mut r,
-        );
-        if let Some(cell) = self.cell_height {
-            demand(
-                self.height <= cell,
-                "height",
-                || format!("of the bed ({} m) exceeds that of the cell ({cell} m)", self.height),
-                &mut r,
-            );
-        }
-        demand(
-            (1e-13..=1e-3).contains(&self.tolerance),
-            "tolerance",
-            || format!("is {}, must lie between 1e-13 and 1e-3", self.tolerance),
-            &mut r,
-        );
-        demand(self.cycles >= 1, "cycles", || "must be at least 1".into(), &mut r);
-        demand(self.phases >= 8, "phases", || "must be at least 8".into(), &mut r);
-        verdict(r)
+        judge.fits("height", self.height, self.cell_height);
+        judge.tolerance(self.tolerance);
+        judge.count(self.cycles, 1, "cycles");
+        judge.count(self.phases, 8, "phases");
+        judge.verdict()
     }
 
     /// The bed as the bed equation sees it.
