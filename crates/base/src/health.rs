@@ -18,12 +18,30 @@ pub struct Blowup {
 
 impl fmt::Display for Blowup {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "the run blew up in step {} at t = {:.6e} s: {}, {}\n  remedy: {}",
-            self.tick.index, self.tick.time, self.quantity, self.place, self.remedy
-        )
+        // Before time 0 the bed settles; that time has no other meaning.
+        if self.tick.time < 0.0 {
+            write!(f, "the run blew up while settling, in step {}", self.tick.index)?;
+        } else {
+            write!(f, "the run blew up in step {} at t = {:.6e} s", self.tick.index, self.tick.time)?;
+        }
+        write!(f, ": {}, {}\n  remedy: {}", self.quantity, self.place, self.remedy)
     }
 }
 
 impl std::error::Error for Blowup {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settling_has_steps_but_no_time() {
+        let text = |time: f64| {
+            let tick = Tick { index: 40, time, dt: 1e-5 };
+            Blowup { tick, quantity: "overlap".into(), place: "grain 3".into(), remedy: "r".into() }
+                .to_string()
+        };
+        assert!(text(-1.0).starts_with("the run blew up while settling, in step 40: overlap, grain 3\n"));
+        assert!(text(4e-4).starts_with("the run blew up in step 40 at t = 4.000000e-4 s: overlap"));
+    }
+}

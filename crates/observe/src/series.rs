@@ -66,7 +66,9 @@ impl Series {
         self.held += 1;
         if self.held == self.block() {
             self.columns.iter_mut().zip(&mut self.cycle).for_each(|(b, c)| {
-                b.add(c.0 / f64::from(c.1));
+                if c.1 > 0 {
+                    b.add(c.0 / f64::from(c.1));
+                }
                 *c = (0.0, 0);
             });
             self.held = 0;

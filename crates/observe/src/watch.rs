@@ -62,6 +62,7 @@ pub struct Watch {
     /// Present until the bed has been found steady, if that is when sampling begins.
     waiting: Option<Steady>,
     series: Option<Series>,
+    samples: u64,
     observer: Observer,
 }
 
@@ -99,6 +100,7 @@ impl Watch {
             from: values.number_opt("from").unwrap_or(0.0),
             waiting: steady.then(|| Steady::new(setting.sampling.per_cycle.unwrap_or(1))),
             series,
+            samples: 0,
             until: values.number_opt("until").unwrap_or(f64::INFINITY),
             observer,
         })
@@ -116,6 +118,12 @@ impl Watch {
     #[must_use]
     pub fn needs(&self) -> Needs {
         self.observer.needs()
+    }
+
+    /// Samples taken so far.
+    #[must_use]
+    pub fn samples(&self) -> u64 {
+        self.samples
     }
 
     /// What is observed.
@@ -144,6 +152,7 @@ impl Watch {
             }
             self.waiting = None;
         }
+        self.samples += 1;
         let row = self.observer.observe(view)?;
         if let Some(series) = &mut self.series {
             series.add(view.tick.time, view.cycle, &row);
@@ -155,8 +164,12 @@ impl Watch {
     }
 
     /// Means with errors, profiles, fields, spectra; tables are named within the watch (`means`, `by-phase`).
+    /// None without a sample.
     #[must_use]
     pub fn results(&self) -> Vec<(String, Table)> {
+        if self.samples == 0 {
+            return vec![];
+        }
         let mut all = self.observer.results();
         if let Some(series) = &self.series {
             all.extend(series.results(&self.observer.columns()));
@@ -164,9 +177,12 @@ impl Watch {
         all
     }
 
-    /// Plots for the report; `series` holds the rows returned so far.
+    /// Plots for the report; `series` holds the rows returned so far. None without a sample.
     #[must_use]
     pub fn figures(&self, series: &Table) -> Vec<Figure> {
+        if self.samples == 0 {
+            return vec![];
+        }
         let mut all = self.observer.figures(series);
         if let Some(s) = &self.series {
             all.extend(s.figures(&self.name, &self.observer.columns()));
@@ -230,6 +246,12 @@ mod tests {
         .unwrap();
         let due: Vec<u64> = (0..1000).filter(|&i| w.is_due(&Tick::at(i, 1e-3))).collect();
         assert_eq!(due, [225, 325, 425]);
+    }
+
+    #[test]
+    fn without_a_sample_there_is_nothing_to_show() {
+        let w = watch(&[("from", Value::Number(1e9))]).unwrap();
+        assert!(w.samples() == 0 && w.results().is_empty() && w.figures(&Table::default()).is_empty());
     }
 
     #[test]

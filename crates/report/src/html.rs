@@ -56,14 +56,53 @@ impl Image {
 }
 
 impl Content {
-    /// A table of numbers, six digits each, with units in the head.
+    /// A table of numbers, six digits each, with units in the head; a single row is stood upright.
     #[must_use]
     pub fn numbers(table: &Table, caption: impl Into<String>) -> Self {
+        if let [row] = &table.rows[..] {
+            return upright(table, row, caption.into());
+        }
         let columns =
             table.columns.iter().map(|c| crate::text::labelled(&c.name, &crate::text::unit(&c.unit)));
         let number = |x: &f64| crate::text::significant(*x, 6);
         let rows = table.rows.iter().map(|r| r.iter().map(number).collect()).collect();
         Self::Table { columns: columns.collect(), rows, caption: caption.into() }
+    }
+}
+
+/// What the name of a column may end in that belongs to the quantity of another column.
+const ABOUT: [(&str, &str); 3] =
+    [("_error", "error"), ("_correlation_time", "correlation time"), ("_steady_from", "steady from")];
+
+/// One line per quantity: its value, and beside it what other columns say about it.
+fn upright(table: &Table, row: &[f64], caption: String) -> Content {
+    let find = |name: &str| table.columns.iter().position(|c| c.name == name);
+    let about = |name: &str| {
+        ABOUT.iter().any(|(tail, _)| name.strip_suffix(tail).is_some_and(|stem| find(stem).is_some()))
+    };
+    let value = |k: usize| {
+        let (unit, size) = crate::text::readable_unit(&table.columns[k].unit, row[k].abs());
+        let unit = if unit == "1" { String::new() } else { unit };
+        if row[k].is_nan() {
+            return "–".to_string();
+        }
+        format!("{} {unit}", crate::text::significant(row[k] / size, 6)).trim_end().to_string()
+    };
+    let quantities: Vec<usize> =
+        (0..table.columns.len()).filter(|&k| !about(&table.columns[k].name)).collect();
+    let beside = |k: usize, tail: &str| find(&format!("{}{tail}", table.columns[k].name));
+    let tails: Vec<_> =
+        ABOUT.iter().filter(|t| quantities.iter().any(|&k| beside(k, t.0).is_some())).collect();
+    let line = |&k: &usize| {
+        let name = table.columns[k].name.replace('_', " ");
+        let others = tails.iter().map(|t| beside(k, t.0).map_or(String::new(), value));
+        [name, value(k)].into_iter().chain(others).collect()
+    };
+    let columns = ["quantity", "value"].into_iter().chain(tails.iter().map(|t| t.1));
+    Content::Table {
+        columns: columns.map(String::from).collect(),
+        rows: quantities.iter().map(line).collect(),
+        caption,
     }
 }
 
@@ -231,6 +270,16 @@ mod tests {
         let html = report().to_html();
         assert!(html.contains("<th>what</th><th class=\"number\">energy</th>"), "{html}");
         assert!(html.contains("<td class=\"number\">−0.5 J</td>"));
+    }
+
+    #[test]
+    fn a_single_row_stands_upright() {
+        let mut t =
+            Table::new(&[("gap", "m"), ("gap_error", "m"), ("gap_steady_from", "s"), ("cycles", "1")]);
+        t.rows = vec![vec![0.0012, 3e-5, f64::NAN, 40.0]];
+        let Content::Table { columns, rows, .. } = Content::numbers(&t, "") else { panic!("a table") };
+        assert_eq!(columns, ["quantity", "value", "error", "steady from"]);
+        assert_eq!(rows, [vec!["gap", "1.2 mm", "30 µm", "–"], vec!["cycles", "40", "", ""]]);
     }
 
     #[test]

@@ -423,9 +423,13 @@ impl<'a> Job<'a> {
             for (result, t) in &results {
                 table::write(&self.directory.tables().join(format!("{}-{result}.csv", watch.name)), t)?;
             }
+            let mut summary = watch.observer().entry().summary.to_string();
+            if watch.samples() == 0 {
+                summary.push_str(" No samples: the run ended before the first was due.");
+            }
             shown.push(Shown {
                 name: watch.name.clone(),
-                summary: watch.observer().entry().summary.into(),
+                summary,
                 figures: watch.figures(&series),
                 results: results.into_iter().map(|(r, t)| (format!("{}-{r}", watch.name), t)).collect(),
             });

@@ -177,7 +177,7 @@ impl Simulation {
                 self.state.stage = Stage::Settling { calm };
                 if settled_for > limit {
                     return Err(Blowup {
-                        tick: self.plan.clock.tick(self.state.step),
+                        tick: self.tick(),
                         quantity: format!(
                             "the bed does not come to rest: rms speed {v:.2e} m/s after {limit} s"
                         ),

@@ -39,16 +39,53 @@ impl Observe for Energy {
     }
 
     fn figures(&self, series: &Table) -> Vec<Figure> {
-        let curves = self
+        let all: Vec<Curve> = self
             .names
             .iter()
             .filter_map(|n| Some(Curve::line(n.replace('_', " "), super::bed::pairs(series, n)?)))
             .collect();
+        let size = |c: &Curve| c.points.iter().map(|p| p[1].abs()).fold(0.0, f64::max);
+        let largest = all.iter().map(size).fold(0.0, f64::max);
+        let (curves, small): (Vec<Curve>, Vec<Curve>) =
+            all.into_iter().partition(|c| size(c) > 0.0 && size(c) >= SMALLEST * largest);
+        let (zero, small): (Vec<&Curve>, Vec<&Curve>) = small.iter().partition(|c| size(c) == 0.0);
+        let mut caption =
+            "Each entry is summed where the energy is spent, none is the remainder of the others."
+                .to_string();
+        let list = |curves: &[&Curve], text: fn(&str, f64) -> String| {
+            curves.iter().map(|c| text(&c.label, size(c))).collect::<Vec<_>>().join(", ")
+        };
+        if !small.is_empty() {
+            let list = list(&small, |label, size| format!("{label} ({size:.1e} J at most)"));
+            caption.push_str(&format!(" Too small to draw: {list}."));
+        }
+        if !zero.is_empty() {
+            caption.push_str(&format!(" Zero throughout: {}.", list(&zero, |label, _| label.into())));
+        }
         vec![Figure {
             title: "Energy ledger".into(),
-            caption: "Each entry is summed where the energy is spent, none is the remainder of the others."
-                .into(),
+            caption,
             body: Body::Curves { x: Axis::linear("time", "s"), y: Axis::linear("energy", "J"), curves },
         }]
+    }
+}
+
+/// Entries that stay below this part of the largest would lie on the axis: they are named, not drawn.
+const SMALLEST: f64 = 1e-3;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_seen_is_named() {
+        let names = ["work", "elastic", "rotation"].map(String::from);
+        let mut series = Table::new(&[("time", "s"), ("work", "J"), ("elastic", "J"), ("rotation", "J")]);
+        series.rows = vec![vec![0.0, 0.0, 1e-5, 0.0], vec![1.0, -2.0, 3e-5, 0.0]];
+        let figure = Energy { names: names.to_vec() }.figures(&series).remove(0);
+        let Body::Curves { curves, .. } = figure.body else { panic!("curves") };
+        assert_eq!(curves.iter().map(|c| &*c.label).collect::<Vec<_>>(), ["work"]);
+        assert!(figure.caption.contains("elastic (3.0e-5 J at most)"), "{}", figure.caption);
+        assert!(figure.caption.contains("Zero throughout: rotation."), "{}", figure.caption);
     }
 }

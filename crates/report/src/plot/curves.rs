@@ -213,8 +213,7 @@ fn curve(paper: &mut Paper, k: usize, c: &Curve, sx: &Scale, sy: &Scale) {
             .for_each(|p| legend::marker(paper, k, *p));
         return;
     }
-    let dash = if c.style == Style::Dashed { " stroke-dasharray=\"6 4\"" } else { "" };
-    let (colour, d) = (legend::colour(k), path(&thin(places)));
+    let (colour, dash, d) = (legend::colour(k), legend::dashes(k, c.style), path(&thin(places)));
     paper.put(format_args!(
         "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.7\" stroke-linejoin=\"round\"{dash} d=\"{d}\"/>"
     ));

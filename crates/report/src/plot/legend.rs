@@ -12,9 +12,18 @@ const SAMPLE: f64 = 26.0;
 /// Between sample and text, and between entries, px.
 const GAP: f64 = 7.0;
 
-/// Colour of curve `k`; the last is grey, and repeats.
+/// Colour of curve `k`; they repeat.
 pub(crate) fn colour(k: usize) -> &'static str {
-    CURVES[k.min(CURVES.len() - 1)]
+    CURVES[k % CURVES.len()]
+}
+
+/// Dashes of curve `k`: those that share their colour with an earlier one are dotted.
+pub(crate) fn dashes(k: usize, style: Style) -> &'static str {
+    match style {
+        Style::Dashed => " stroke-dasharray=\"6 4\"",
+        _ if k >= CURVES.len() => " stroke-dasharray=\"1.5 3\"",
+        _ => "",
+    }
 }
 
 /// Size of the legend as a column, px.
@@ -60,7 +69,7 @@ pub(crate) fn entry(paper: &mut Paper, k: usize, curve: &Curve, at: [f64; 2]) {
     match curve.style {
         Style::Points => marker(paper, k, [x + 0.5 * SAMPLE, y]),
         style => {
-            let dash = if style == Style::Dashed { " stroke-dasharray=\"6 4\"" } else { "" };
+            let dash = dashes(k, style);
             let to = x + SAMPLE;
             paper.put(format_args!(
                 "<path fill=\"none\" stroke=\"{c}\" stroke-width=\"1.8\"{dash} d=\"M{x:.1} {y:.1}L{to:.1} {y:.1}\"/>"
