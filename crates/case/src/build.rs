@@ -133,7 +133,8 @@ fn fluid_alone(case: &Case, cell: Cell) -> Result<Built, Issues> {
     let shaking = parts::shaking(v);
     let facts = Facts {
         contact_time: f64::INFINITY,
-        flow_speed: crate::fluid::driving_speed(v).max(shaking.peak_speed()).max(1e-6),
+        flow_speed: crate::fluid::largest_speed(v)
+            .unwrap_or_else(|| crate::fluid::driving_speed(v).max(shaking.peak_speed()).max(1e-6)),
         shake: parts::fundamental(v),
         fluid: Some((spec.density, spec.viscosity)),
         diameter: cell.size.min_element(),
@@ -434,7 +435,8 @@ fn facts(
     // Fluid drawn under a thrown bed moves as fast as the bed, a few times faster in gaps.
     let settling =
         (2.0 * v.number("gravity") * 2.0 * grains.radius.iter().copied().fold(0.0, f64::max)).sqrt();
-    f.flow_speed = parts::shaking(v).peak_speed().max(settling).max(own);
+    let estimate = parts::shaking(v).peak_speed().max(settling).max(own);
+    f.flow_speed = crate::fluid::largest_speed(v).unwrap_or(estimate);
     f.mass = grains.mass.iter().sum();
     f.volume = grains.radius.iter().map(|&r| packing::occupied(r, cell)).sum();
     f.diameter = 2.0 * grains.radius.iter().sum::<f64>() / grains.len() as f64;

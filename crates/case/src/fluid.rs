@@ -106,6 +106,12 @@ pub fn largest_step(spec: &FluidSpec, speed: f64) -> f64 {
     0.5 * brazilnut_fluid::step_limits(spec, speed).into_iter().map(|l| l.1).fold(f64::INFINITY, f64::min)
 }
 
+/// Fastest motion that the case expects of the fluid, m/s, if it says so.
+#[must_use]
+pub fn largest_speed(v: &Values) -> Option<f64> {
+    v.table_opt("fluid")?.number_opt("largest_speed")
+}
+
 /// Fastest motion that sides drive the fluid with, m/s.
 #[must_use]
 pub fn driving_speed(v: &Values) -> f64 {

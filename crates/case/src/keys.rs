@@ -259,6 +259,12 @@ const FLUID: &[Key] = &[
     Key::required("density", Kind::Quantity(D::DENSITY), "Density of the fluid.").with(NON_NEGATIVE),
     Key::required("viscosity", Kind::Quantity(D::VISCOSITY), "Dynamic viscosity of the fluid.")
         .with(POSITIVE),
+    Key::optional(
+        "largest_speed",
+        Kind::Quantity(D::VELOCITY),
+        "Fastest motion expected of the fluid, for the limits of the step; if left out, estimated from the shaking and from a fall of one diameter. What the fluid does is guarded by `courant_limit`.",
+    )
+    .with(POSITIVE),
     fluid_side("left", "The side x = 0."),
     fluid_side("right", "The far side along x."),
     fluid_side("front", "The side y = 0."),

@@ -139,6 +139,14 @@ pub fn published(study: &Study) -> Result<Vec<Published>, String> {
     Ok(file.quantity)
 }
 
+/// The published number called `name` of the study `id`; not a number if there is none.
+#[must_use]
+pub fn printed(id: &str, name: &str) -> f64 {
+    let study = crate::menu::MENU.iter().find(|s| s.id == id);
+    let list = study.and_then(|s| published(s).ok()).unwrap_or_default();
+    list.iter().find(|p| p.name == name).and_then(|p| p.published).unwrap_or(f64::NAN)
+}
+
 /// Judges what was computed. Every published quantity of this form must be
 /// computed, and nothing else.
 ///

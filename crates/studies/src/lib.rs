@@ -5,11 +5,17 @@
 //! what was published (`published.toml`, written by hand), the cases, and a
 //! README with the deviations admitted.
 
+mod clement_cylinder_drag;
+mod clement_falling_cylinder;
 mod clement_fig_2_4_to_2_7;
 mod clement_fig_4_1_to_4_3;
 mod clement_fig_5_17;
 mod clement_fig_6_11;
+mod clement_lubrication;
 mod clement_modified_kroll_peaks;
+mod clement_sedimentation;
+mod clement_sphere_drag;
+mod fall;
 pub mod findings;
 mod lan_kinetic_theory;
 mod lan_self_diffusion;

@@ -2,8 +2,9 @@
 
 use crate::study::Study;
 use crate::{
-    clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11,
-    clement_modified_kroll_peaks, lan_kinetic_theory, lan_self_diffusion, lan_stiffness,
+    clement_cylinder_drag, clement_falling_cylinder, clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3,
+    clement_fig_5_17, clement_fig_6_11, clement_lubrication, clement_modified_kroll_peaks,
+    clement_sedimentation, clement_sphere_drag, lan_kinetic_theory, lan_self_diffusion, lan_stiffness,
 };
 
 /// A study whose folder and id agree.
@@ -21,6 +22,16 @@ macro_rules! study {
 
 /// All studies.
 pub const MENU: &[Study] = &[
+    study!(
+        "clement-cylinder-drag",
+        "Drag of a falling cylinder over its Reynolds number (Clément 2009)",
+        clement_cylinder_drag::run
+    ),
+    study!(
+        "clement-falling-cylinder",
+        "A falling cylinder: springs, resolution, walls (Clément 2009)",
+        clement_falling_cylinder::run
+    ),
     study!("clement-fig-2-4-to-2-7", "Two steel spheres under three contact laws (Clément 2009)", |r| Ok(
         clement_fig_2_4_to_2_7::run(r.quick).into()
     )),
@@ -35,10 +46,21 @@ pub const MENU: &[Study] = &[
     study!("clement-fig-6-11", "A steel intruder rises in the Brazil-nut column (Clément 2009)", |r| Ok(
         clement_fig_6_11::run(r.quick).into()
     )),
+    study!("clement-lubrication", "A sphere hits a wall in water (Clément 2009)", clement_lubrication::run),
     study!(
         "clement-modified-kroll-peaks",
         "Peak pressures of the modified Kroll model (Clément 2009)",
         |r| Ok(clement_modified_kroll_peaks::run(r.quick).into())
+    ),
+    study!(
+        "clement-sedimentation",
+        "200 sedimenting cylinders by three rungs (Clément 2009)",
+        clement_sedimentation::run
+    ),
+    study!(
+        "clement-sphere-drag",
+        "Drag of a falling sphere over its Reynolds number (Clément 2009)",
+        clement_sphere_drag::run
     ),
     study!("lan-kinetic-theory", "Kinetic theory of a vibrated layer (Lan 1994)", |r| Ok(
         lan_kinetic_theory::run(r.quick).into()
