@@ -96,6 +96,12 @@ pub const GRAINS: &[Key] = &[
         "Cylinders lie along the flat direction of a two-dimensional cell and fill its depth.",
     ),
     Key::optional("at", Kind::Vector(D::LENGTH), "Place of a single grain."),
+    Key::optional(
+        "from",
+        Kind::Vector(D::LENGTH),
+        "Lower corner of the box that they are placed in; the cell's if left out.",
+    ),
+    Key::optional("to", Kind::Vector(D::LENGTH), "Upper corner of that box; the cell's if left out."),
     Key::default("velocity", Kind::Vector(D::VELOCITY), "[0.0, 0.0, 0.0]", "Velocity at the start."),
 ];
 
@@ -247,7 +253,12 @@ pub const OBSTACLE: &[Key] = &[
     Key::required("from", Kind::Vector(D::LENGTH), "Lower corner of the solid box."),
     Key::required("to", Kind::Vector(D::LENGTH), "Upper corner of the solid box."),
     Key::optional("material", Kind::Text, "Its material; that of the walls by default."),
-    Key::default("until_settled", Kind::Flag, "false", "Taken away when the settling ends."),
+    Key::default(
+        "until_settled",
+        Kind::Flag,
+        "false",
+        "Taken away once the bed has settled; it then settles once more, before time 0.",
+    ),
 ];
 
 const fn fluid_side(name: &'static str, doc: &'static str) -> Key {

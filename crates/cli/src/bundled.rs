@@ -1,7 +1,12 @@
 //! The cases that come with the program.
 
 /// Name and text of each.
-const CASES: &[(&str, &str)] = &[("wet-bed", include_str!("../../../cases/wet-bed.toml"))];
+const CASES: &[(&str, &str)] = &[
+    ("wet-bed", include_str!("../../../cases/wet-bed.toml")),
+    ("partition", include_str!("../../../cases/partition.toml")),
+    ("brazil-nut", include_str!("../../../cases/brazil-nut.toml")),
+    ("layers", include_str!("../../../cases/layers.toml")),
+];
 
 /// The text of the case called `name`.
 #[must_use]

@@ -4,6 +4,7 @@ pub mod analytic;
 pub mod compare;
 pub mod directory;
 pub mod failure;
+mod fields;
 pub mod outputs;
 pub mod pictures;
 pub mod progress;

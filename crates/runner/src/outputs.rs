@@ -6,6 +6,8 @@ use brazilnut_base::schedule::{Every, Schedule};
 use brazilnut_base::values::Values;
 use brazilnut_base::{Cell, Table, Tick};
 use brazilnut_grains::Grains;
+use brazilnut_observe::FlowView;
+use brazilnut_report::text::significant;
 use brazilnut_sim::Plan;
 use brazilnut_store::dump::Dump;
 use brazilnut_store::{GrainFrame, Series, StoreError, TableFile, atomic, table, vtk};
@@ -31,6 +33,7 @@ pub struct Outputs {
     dump: Option<Dump>,
     frames: Schedule,
     pictures: Vec<u64>,
+    flows: Vec<u64>,
     palette: pictures::Palette,
     cell: Cell,
     species_names: Vec<String>,
@@ -110,6 +113,7 @@ impl Outputs {
             grains,
             dump,
             frames,
+            flows: if pictures.is_empty() { vec![] } else { flow_pictures(plan, &pictures) },
             pictures,
             palette: pictures::Palette::new(plan),
             cell: plan.cell,
@@ -128,7 +132,8 @@ impl Outputs {
     /// Whether grains are wanted at this boundary.
     #[must_use]
     pub fn wants_grains(&self, tick: &Tick) -> bool {
-        tick.index == 0 || self.frames.is_due(tick.index) || self.pictures.contains(&tick.index)
+        let due = |list: &[u64]| list.contains(&tick.index);
+        tick.index == 0 || self.frames.is_due(tick.index) || due(&self.pictures) || due(&self.flows)
     }
 
     /// Writes the frame and the picture that are due at this boundary. The
@@ -136,7 +141,13 @@ impl Outputs {
     ///
     /// # Errors
     /// If they cannot be written.
-    pub fn frame(&mut self, tick: &Tick, grains: &Grains, caption: &str) -> Result<(), StoreError> {
+    pub fn frame(
+        &mut self,
+        tick: &Tick,
+        grains: &Grains,
+        flow: Option<&dyn FlowView>,
+        caption: &str,
+    ) -> Result<(), StoreError> {
         if tick.index == 0 {
             self.palette.start(grains);
         }
@@ -168,7 +179,27 @@ impl Outputs {
             atomic::write(&stem.with_extension("png"), &png)?;
             atomic::write(&stem.with_extension("txt"), caption.as_bytes())?;
         }
-        Ok(())
+        match flow {
+            Some(flow) if self.flows.contains(&tick.index) => self.flow(tick, grains, flow, caption),
+            _ => Ok(()),
+        }
+    }
+
+    /// The flow at this boundary: the bed cut open, and fluid and grains side by side.
+    fn flow(
+        &self,
+        tick: &Tick,
+        grains: &Grains,
+        flow: &dyn FlowView,
+        caption: &str,
+    ) -> Result<(), StoreError> {
+        let stem = self.directory.pictures().join(format!("flow-{:012}", tick.index));
+        let (png, fastest) = self.palette.flow_picture(&self.cell, grains, flow);
+        atomic::write(&stem.with_extension("png"), &png)?;
+        let text = format!("{caption}, longest arrow {} mm/s", significant(1e3 * fastest, 3));
+        atomic::write(&stem.with_extension("txt"), text.as_bytes())?;
+        let figures = self.palette.plane(&self.cell).figures(grains, flow, caption);
+        atomic::write(&stem.with_extension("json"), &serde_json::to_vec(&figures).expect("plain data"))
     }
 
     /// Brings all to the disk and says what a checkpoint must remember.
@@ -214,5 +245,19 @@ impl Outputs {
 
     fn path(&self, plan: &Plan, k: usize) -> PathBuf {
         self.directory.tables().join(format!("{}.csv", plan.watches[k].name))
+    }
+}
+
+/// Boundaries at which the flow is drawn: in the last whole cycle while the bed goes up and while it comes
+/// down (135 and 225 degrees, Clément Figs 4.6-4.9), or with the `pictures` where nothing shakes.
+fn flow_pictures(plan: &Plan, pictures: &[u64]) -> Vec<u64> {
+    let clock = &plan.clock;
+    match clock.steps_per_cycle {
+        _ if plan.flow().is_none() || plan.start.is_empty() => vec![],
+        Some(n) if clock.end >= n => {
+            let last = (clock.end / n - 1) * n;
+            [3, 5].map(|eighths| last + eighths * n / 8).to_vec()
+        }
+        _ => pictures.iter().copied().filter(|&k| k > 0).collect(),
     }
 }

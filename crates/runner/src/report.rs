@@ -8,6 +8,7 @@ use brazilnut_report::html::{Content, Image, Report};
 use brazilnut_report::sheet::Sheet;
 use brazilnut_report::text::significant;
 use brazilnut_store::{StoreError, atomic};
+use std::path::PathBuf;
 
 /// What observers have to show, one entry per observer.
 pub struct Shown {
@@ -52,7 +53,8 @@ pub fn write(
             status.model, status.version, status.grains, status.step, status.seed
         ))
         .section("Notice", notices(status, sheet))
-        .section("Pictures", pictures(directory)?)
+        .section("Pictures", pictures(directory, "bed")?)
+        .section("Flow", flow(directory)?)
         .section("Start-up sheet", vec![Content::Sheet(sheet.clone())])
         .section("Measured", measured.collect())
         .section("Energy", energy(status))
@@ -74,14 +76,34 @@ fn notices(status: &Status, sheet: &Sheet) -> Vec<Content> {
     if all.is_empty() { vec![] } else { vec![Content::Warnings(all)] }
 }
 
-fn pictures(directory: &Directory) -> Result<Vec<Content>, StoreError> {
-    let folder = directory.pictures();
-    let Ok(entries) = std::fs::read_dir(&folder) else { return Ok(vec![]) };
-    let mut paths: Vec<_> =
-        entries.flatten().map(|e| e.path()).filter(|p| p.extension().is_some_and(|x| x == "png")).collect();
+/// Files of the pictures called `kind` with this `extension`, in the order of time.
+fn files(directory: &Directory, kind: &str, extension: &str) -> Vec<PathBuf> {
+    let Ok(entries) = std::fs::read_dir(directory.pictures()) else { return vec![] };
+    let named = |p: &PathBuf| {
+        p.extension().is_some_and(|x| x == extension)
+            && p.file_name().is_some_and(|n| n.to_string_lossy().starts_with(kind))
+    };
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|e| e.path()).filter(named).collect();
     paths.sort();
+    paths
+}
+
+/// The bed cut open with the fluid's arrows, then fluid and grains side by side.
+fn flow(directory: &Directory) -> Result<Vec<Content>, StoreError> {
+    let mut content = pictures(directory, "flow")?;
+    for p in files(directory, "flow", "json") {
+        let text = std::fs::read(&p).map_err(|e| StoreError::io(&p, "read", e))?;
+        // A file that something else has damaged is left out: it only shows what the tables hold.
+        if let Ok(figures) = serde_json::from_slice::<Vec<Figure>>(&text) {
+            content.push(Content::Figures(figures));
+        }
+    }
+    Ok(content)
+}
+
+fn pictures(directory: &Directory, kind: &str) -> Result<Vec<Content>, StoreError> {
     let mut images = vec![];
-    for p in paths {
+    for p in files(directory, kind, "png") {
         let png = std::fs::read(&p).map_err(|e| StoreError::io(&p, "read", e))?;
         let caption = std::fs::read_to_string(p.with_extension("txt")).unwrap_or_default();
         images.push(Image { png, caption, scale: None });

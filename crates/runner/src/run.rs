@@ -13,6 +13,7 @@ use crate::stop::{Early, Watch};
 use brazilnut_base::Tick;
 use brazilnut_case::build::Built;
 use brazilnut_case::{Case, build, check, resolved};
+use brazilnut_observe::FlowView;
 use brazilnut_report::sheet::Sheet;
 use brazilnut_sim::{Ended, Simulation, Stage, State, view};
 use brazilnut_store::checkpoint::{self, Header};
@@ -322,7 +323,8 @@ impl<'a> Job<'a> {
         if self.outputs.wants_grains(&tick) {
             let start = Instant::now();
             let caption = self.caption(&tick);
-            self.outputs.frame(&tick, self.simulation.grains(), &caption)?;
+            let (grains, flow) = self.simulation.look();
+            self.outputs.frame(&tick, grains, flow.as_ref().map(|f| f as &dyn FlowView), &caption)?;
             self.spent.writing += start.elapsed().as_secs_f64();
         }
         Ok(())

@@ -97,7 +97,7 @@ pub struct Plan {
     pub settle: Settle,
     /// The grain engine; its step is the clock's grain step.
     pub dem: DemSpec,
-    /// Walls that stand only while the bed settles.
+    /// Walls that go once the bed has settled; it settles once more without them.
     pub settling_walls: Vec<WallSpec>,
     /// The grains before the first step.
     pub start: Grains,

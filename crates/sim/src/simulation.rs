@@ -8,6 +8,7 @@ use crate::{step, view};
 use brazilnut_base::motion::Moved;
 use brazilnut_base::parallel::sum;
 use brazilnut_base::{Blowup, Cell, Tick, Vec3};
+use brazilnut_coupling::one_way::LocalPorosity;
 use brazilnut_coupling::{Coupling, CouplingSpec};
 use brazilnut_fluid::Solver;
 use brazilnut_grains::{ContactView, Dem, DemSpec, Grains, Ledger, Partner, SpecError};
@@ -36,6 +37,8 @@ struct Scratch {
     grains: Grains,
     contacts: Vec<ContactAt>,
     drag: Vec<Vec3>,
+    /// Porosity that an averaged coupling's observers see.
+    porosity: Option<LocalPorosity>,
     names: Vec<String>,
     warnings: Vec<String>,
 }
@@ -47,11 +50,16 @@ impl Simulation {
     /// If the grain engine refuses its specification.
     pub fn new(plan: Plan) -> Result<Self, SpecError> {
         let settling = plan.settle != Settle::None;
-        let mut dem = Dem::new(spec(&plan, settling))?;
+        let stage = if settling {
+            Stage::Settling { calm: 0, freed: plan.settling_walls.is_empty() }
+        } else {
+            Stage::Running
+        };
+        let mut dem = Dem::new(spec(&plan, stage))?;
         let solver = solver(&plan)?;
         let start = if settling { plan.start.clone() } else { carried(&plan, &plan.start) };
         let state = State {
-            stage: if settling { Stage::Settling { calm: 0 } } else { Stage::Running },
+            stage,
             step: 0,
             settled_after: 0,
             dem: dem.start(&start)?,
@@ -79,7 +87,7 @@ impl Simulation {
     /// If the grain engine refuses its specification.
     pub fn resume(plan: Plan, state: State) -> Result<Self, SpecError> {
         let running = state.stage == Stage::Running;
-        let dem = Dem::new(spec(&plan, !running))?;
+        let dem = Dem::new(spec(&plan, state.stage))?;
         let solver = solver(&plan)?;
         let mut run = Self::assemble(plan, state, Engines { dem, solver, coupling: None });
         if running {
@@ -153,14 +161,14 @@ impl Simulation {
         if self.state.step.is_multiple_of(self.plan.guards.every) {
             self.guard()?;
         }
-        if let Stage::Settling { calm } = self.state.stage {
-            self.settle(calm)?;
+        if let Stage::Settling { calm, freed } = self.state.stage {
+            self.settle(calm, freed)?;
         }
         Ok(())
     }
 
-    /// Counts calm steps; starts the run once there are enough.
-    fn settle(&mut self, calm: u64) -> Result<(), Blowup> {
+    /// Counts calm steps; once there are enough, takes away the walls of settling or starts the run.
+    fn settle(&mut self, calm: u64, freed: bool) -> Result<(), Blowup> {
         let dt = self.plan.clock.dt;
         let settled_for = self.state.step as f64 * dt;
         let done = match self.plan.settle {
@@ -174,7 +182,7 @@ impl Simulation {
                 }
                 let v = self.rms_speed();
                 let calm = if v < speed { calm + STRIDE } else { 0 };
-                self.state.stage = Stage::Settling { calm };
+                self.state.stage = Stage::Settling { calm, freed };
                 if settled_for > limit {
                     return Err(Blowup {
                         tick: self.tick(),
@@ -188,29 +196,47 @@ impl Simulation {
                 calm as f64 * dt >= needed
             }
         };
-        if done { self.begin() } else { Ok(()) }
+        match (done, freed) {
+            (false, _) => Ok(()),
+            (true, false) => self.free(),
+            (true, true) => self.begin(),
+        }
     }
 
-    /// Time 0: temporary walls go, the ledger starts.
-    fn begin(&mut self) -> Result<(), Blowup> {
+    /// Takes away the walls of settling: the bed spreads, and settles once more.
+    fn free(&mut self) -> Result<(), Blowup> {
         self.guard()?;
         self.state.settled_after = self.state.step;
-        let lighter = matches!(&self.plan.medium, Medium::Coupled(c, _) if c.carries_template_mass());
-        if lighter || !self.plan.settling_walls.is_empty() {
-            self.engines.dem.export(&self.state.dem, &mut self.scratch.grains);
-            let refused = |e: SpecError| Blowup {
-                tick: self.plan.clock.tick(0),
-                quantity: e.to_string(),
-                place: "taking away the walls of settling".into(),
-                remedy: "check the obstacles".into(),
-            };
-            self.engines.dem = Dem::new(spec(&self.plan, false)).map_err(refused)?;
-            let grains = carried(&self.plan, &self.scratch.grains);
-            self.state.dem = self.engines.dem.start(&grains).map_err(refused)?;
+        self.state.step = 0;
+        self.state.stage = Stage::Settling { calm: 0, freed: true };
+        self.restart(|_, grains| grains.clone())
+    }
+
+    /// The grain engine anew with the walls of this stage and the grains that `change` makes of them.
+    fn restart(&mut self, change: impl Fn(&Plan, &Grains) -> Grains) -> Result<(), Blowup> {
+        self.engines.dem.export(&self.state.dem, &mut self.scratch.grains);
+        let refused = |e: SpecError| Blowup {
+            tick: self.plan.clock.tick(0),
+            quantity: e.to_string(),
+            place: "the grains after settling".into(),
+            remedy: "check the obstacles".into(),
+        };
+        self.engines.dem = Dem::new(spec(&self.plan, self.state.stage)).map_err(refused)?;
+        let grains = change(&self.plan, &self.scratch.grains);
+        self.state.dem = self.engines.dem.start(&grains).map_err(refused)?;
+        Ok(())
+    }
+
+    /// Time 0: the ledger starts, and grains leave to the fluid what it carries of them.
+    fn begin(&mut self) -> Result<(), Blowup> {
+        self.guard()?;
+        self.state.settled_after += self.state.step;
+        self.state.stage = Stage::Running;
+        if matches!(&self.plan.medium, Medium::Coupled(c, _) if c.carries_template_mass()) {
+            self.restart(carried)?;
         }
         self.couple();
         self.state.before = self.engines.dem.ledger(&self.state.dem);
-        self.state.stage = Stage::Running;
         self.state.step = 0;
         self.state.largest_overlap = 0.0;
         self.state.largest_residual = 0.0;
@@ -310,12 +336,13 @@ impl Simulation {
             }
             _ => {}
         }
-        let resolved =
-            matches!(&plan.medium, Medium::Coupled(c, _) if !matches!(**c, CouplingSpec::Averaged(_)));
+        let resolved = is_resolved(plan);
+        if needs.flow {
+            map_porosity(plan, solver.as_ref(), &scratch.grains, &mut scratch.porosity);
+        }
+        let porosity = porosity.as_ref().or(scratch.porosity.as_ref());
         let seen = match (solver, flow) {
-            (Some(s), Some(flow)) => {
-                Some(Seen { flow, grid: s.grid(), resolved, porosity: porosity.as_ref() })
-            }
+            (Some(s), Some(flow)) => Some(Seen { flow, grid: s.grid(), resolved, porosity }),
             _ => None,
         };
         let ledger = view::ledger(&view::since(&dem.ledger(grains), before));
@@ -378,6 +405,19 @@ impl Simulation {
         &self.scratch.grains
     }
 
+    /// The grains and, where there is one, the flow now: for pictures.
+    pub fn look(&mut self) -> (&Grains, Option<impl FlowView + '_>) {
+        let Self { state, engines, scratch, plan, .. } = self;
+        engines.dem.export(&state.dem, &mut scratch.grains);
+        let flow = match (&engines.solver, &state.flow) {
+            (Some(s), Some(flow)) => {
+                Some(Seen { flow, grid: s.grid(), resolved: is_resolved(plan), porosity: None })
+            }
+            _ => None,
+        };
+        (&scratch.grains, flow)
+    }
+
     /// The energy ledger since time 0 (since the start while settling).
     #[must_use]
     pub fn ledger(&self) -> Ledger {
@@ -411,6 +451,20 @@ fn solver(plan: &Plan) -> Result<Option<Solver>, SpecError> {
         .transpose()
 }
 
+/// True where grains are larger than the cells of the fluid's grid.
+fn is_resolved(plan: &Plan) -> bool {
+    matches!(&plan.medium, Medium::Coupled(c, _) if !matches!(**c, CouplingSpec::Averaged(_)))
+}
+
+/// Maps the grains of an averaged coupling onto the cells of the fluid's grid, for observers.
+fn map_porosity(plan: &Plan, solver: Option<&Solver>, grains: &Grains, map: &mut Option<LocalPorosity>) {
+    let (Medium::Coupled(spec, _), Some(solver)) = (&plan.medium, solver) else { return };
+    if let CouplingSpec::Averaged(averaged) = &**spec {
+        map.get_or_insert_with(|| LocalPorosity::on_cells(&plan.cell, solver.grid().cells))
+            .refresh(grains, averaged.body);
+    }
+}
+
 /// The grains with the mass that the coupling leaves to the engine.
 fn carried(plan: &Plan, grains: &Grains) -> Grains {
     let mut grains = grains.clone();
@@ -423,10 +477,10 @@ fn carried(plan: &Plan, grains: &Grains) -> Grains {
     grains
 }
 
-/// The engine's specification, with the walls of settling or without.
-fn spec(plan: &Plan, settling: bool) -> DemSpec {
+/// The engine's specification: while the bed settles for the first time, with the walls of settling.
+fn spec(plan: &Plan, stage: Stage) -> DemSpec {
     let mut spec = plan.dem.clone();
-    if settling {
+    if matches!(stage, Stage::Settling { freed: false, .. }) {
         spec.walls.extend(plan.settling_walls.iter().cloned());
     }
     spec

@@ -14,6 +14,8 @@ pub enum Stage {
     Settling {
         /// Steps in a row during which the bed was at rest.
         calm: u64,
+        /// The walls that stand only while the bed settles have gone; it settles once more without them.
+        freed: bool,
     },
     /// Time runs from 0.
     Running,
@@ -26,7 +28,7 @@ pub struct State {
     pub stage: Stage,
     /// Steps taken in this stage.
     pub step: u64,
-    /// Steps that the settling took.
+    /// Steps that the settling took; while it goes on, those before the walls of settling went.
     pub settled_after: u64,
     /// The grains.
     pub dem: DemState,

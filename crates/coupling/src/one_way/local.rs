@@ -35,6 +35,12 @@ impl LocalPorosity {
                 cells[axis] = ((cell.size[axis] / spacing).round() as usize).max(1);
             }
         }
+        Self::on_cells(cell, cells)
+    }
+
+    /// A map of clear fluid on so many `cells` along each axis.
+    #[must_use]
+    pub fn on_cells(cell: &Cell, cells: [usize; 3]) -> Self {
         let edge = cell.size / Vec3::from_array(cells.map(|n| n as f64));
         let values = vec![1.0; cells.iter().product()];
         Self { cells, spacing: edge, sides: cell.sides, values }

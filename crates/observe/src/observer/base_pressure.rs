@@ -21,14 +21,14 @@ pub struct BasePressure {
     strip: f64,
 }
 
-/// Points across the depth over which the fluid's pressure is averaged.
+/// Least number of points across the depth over which the fluid's pressure is averaged.
 const ACROSS: usize = 8;
 
 impl Observe for BasePressure {
     const ENTRY: Entry = Entry {
         name: "base-pressure",
         summary: "Pressure on the base at places along it: fluid and grains apart, hydrostatic part removed.",
-        formula: "fluid = p(base) - mean p(lid) (Pa), p without the hydrostatic part of gravity and of the shaken frame, mean over the depth of the cell; \
+        formula: "fluid = p(base) - mean p(lid) (Pa), p without the hydrostatic part of gravity and of the shaken frame, extrapolated to the base from the two lowest grid cells, mean over the depth of the cell; \
                   where the fluid is at rest (simple-drag): sum of the drag along z on the grains above the strip per area of the strip, negative (underpressure) while the bed rises through the fluid\n\
                   grains = force of the grains on the floor in a strip of width `strip` about the place per area of the strip (Pa)\n\
                   fluid_mean, grains_mean: over the whole base",
@@ -122,15 +122,20 @@ impl BasePressure {
         if let Some(flow) = fluid.flow {
             let size = view.cell.size;
             let other = 1 - self.axis;
-            let point = |x: f64, k: usize, z: f64| {
-                let y = size[other] * (k as f64 + 0.5) / ACROSS as f64;
-                if self.axis == 0 { vec3(x, y, z) } else { vec3(y, x, z) }
-            };
+            let [along, deep] = [self.axis, other].map(|a| flow.shape()[a].max(ACROSS));
             let mean = |low: f64, high: f64, z: f64| {
-                let along = |k: usize| low + (high - low) * (k as f64 + 0.5) / ACROSS as f64;
-                let points =
-                    (0..ACROSS * ACROSS).map(|k| flow.pressure(point(along(k / ACROSS), k % ACROSS, z)));
-                points.sum::<f64>() / (ACROSS * ACROSS) as f64
+                let point = |k: usize| {
+                    let x = low + (high - low) * ((k / deep) as f64 + 0.5) / along as f64;
+                    let y = size[other] * ((k % deep) as f64 + 0.5) / deep as f64;
+                    if self.axis == 0 { vec3(x, y, z) } else { vec3(y, x, z) }
+                };
+                let points = (0..along * deep).map(|k| flow.pressure(point(k)));
+                points.sum::<f64>() / (along * deep) as f64
+            };
+            let cell = size.z / flow.shape()[2] as f64;
+            let base = |low: f64, high: f64| {
+                let z = view.floor_height().max(0.0);
+                1.5 * mean(low, high, z + 0.5 * cell) - 0.5 * mean(low, high, z + 1.5 * cell)
             };
             // At a place the pressure itself, over the whole base its mean.
             let (low, high) = if strip.1 - strip.0 < size[self.axis] {
@@ -139,7 +144,7 @@ impl BasePressure {
             } else {
                 strip
             };
-            return mean(low, high, view.floor_height().max(0.0)) - mean(0.0, size[self.axis], size.z);
+            return base(low, high) - mean(0.0, size[self.axis], size.z);
         }
         if fluid.drag.len() != view.grains.len() {
             return f64::NAN;
