@@ -16,11 +16,16 @@ mod clement_modified_kroll_peaks;
 mod clement_sedimentation;
 mod clement_sphere_drag;
 mod fall;
+mod clement_heap;
+mod clement_modified_kroll_peaks;
+mod clement_thrown_bed;
+mod clement_tilt;
 pub mod findings;
 mod lan_kinetic_theory;
 mod lan_self_diffusion;
 mod lan_stiffness;
 pub mod menu;
+mod phases;
 mod runs;
 pub mod study;
 

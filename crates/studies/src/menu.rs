@@ -5,6 +5,9 @@ use crate::{
     clement_cylinder_drag, clement_falling_cylinder, clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3,
     clement_fig_5_17, clement_fig_6_11, clement_lubrication, clement_modified_kroll_peaks,
     clement_sedimentation, clement_sphere_drag, lan_kinetic_theory, lan_self_diffusion, lan_stiffness,
+    clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11, clement_heap,
+    clement_modified_kroll_peaks, clement_thrown_bed, clement_tilt, lan_kinetic_theory, lan_self_diffusion,
+    lan_stiffness,
 };
 
 /// A study whose folder and id agree.
@@ -47,6 +50,7 @@ pub const MENU: &[Study] = &[
         clement_fig_6_11::run(r.quick).into()
     )),
     study!("clement-lubrication", "A sphere hits a wall in water (Clément 2009)", clement_lubrication::run),
+    study!("clement-heap", "A heap on a shaken floor without walls (Clément 2009)", clement_heap::run),
     study!(
         "clement-modified-kroll-peaks",
         "Peak pressures of the modified Kroll model (Clément 2009)",
@@ -62,6 +66,11 @@ pub const MENU: &[Study] = &[
         "Drag of a falling sphere over its Reynolds number (Clément 2009)",
         clement_sphere_drag::run
     ),
+        "clement-thrown-bed",
+        "A bed in water thrown by a shaken cell, rung by rung (Clément 2009)",
+        clement_thrown_bed::run
+    ),
+    study!("clement-tilt", "A bed in water piles up to one side (Clément 2009)", clement_tilt::run),
     study!("lan-kinetic-theory", "Kinetic theory of a vibrated layer (Lan 1994)", |r| Ok(
         lan_kinetic_theory::run(r.quick).into()
     )),

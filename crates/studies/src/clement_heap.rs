@@ -1,0 +1,104 @@
+//! A heap on a shaken floor without walls (Clément 4.4.2, Fig. 4.16).
+
+use crate::runs::{Done, column};
+use crate::study::{Computed, Ran, Request};
+use brazilnut_base::Table;
+use brazilnut_base::figure::{Axis, Body, Curve, Figure};
+use brazilnut_runner::Failure;
+use std::f64::consts::TAU;
+
+const CASE: (&str, &str) =
+    ("studies/clement-heap/case.toml", include_str!("../../../studies/clement-heap/case.toml"));
+
+/// What both forms lay over the case: the rung that two seconds of shaking can be had from.
+const BOTH: [&str; 2] = ["model=navier-stokes", "time.end=20 cycles"];
+
+/// The short form: a smaller heap, three cycles.
+const QUICK: [&str; 13] = [
+    "time.end=3 cycles",
+    "grains.0.count=240",
+    "cell.size=[\"14 mm\", \"14 mm\", \"9.8 mm\"]",
+    "grains.0.from=[\"3.5 mm\", \"3.5 mm\", \"0 mm\"]",
+    "grains.0.to=[\"10.5 mm\", \"10.5 mm\", \"9.8 mm\"]",
+    "obstacles.0.to=[\"3.5 mm\", \"14 mm\", \"9.8 mm\"]",
+    "obstacles.1.from=[\"10.5 mm\", \"0 mm\", \"0 mm\"]",
+    "obstacles.1.to=[\"14 mm\", \"14 mm\", \"9.8 mm\"]",
+    "obstacles.2.from=[\"3.5 mm\", \"0 mm\", \"0 mm\"]",
+    "obstacles.2.to=[\"10.5 mm\", \"3.5 mm\", \"9.8 mm\"]",
+    "obstacles.3.from=[\"3.5 mm\", \"10.5 mm\", \"0 mm\"]",
+    "obstacles.3.to=[\"10.5 mm\", \"14 mm\", \"9.8 mm\"]",
+    "output.pictures=0",
+];
+
+/// Width of the floor (m) and of the rings about its middle.
+const WIDTHS: [f64; 2] = [32.7e-3, 14e-3];
+const RING: f64 = 1.4e-3;
+
+/// Grains farther from the middle than this part of half the width have left the heap: the confining walls
+/// stood at a half, their corners at 0.71.
+const LOOSE: f64 = 0.72;
+
+/// Volumes of grains ring by ring over the height of the cell (m²), sample by sample.
+fn rings(table: &Table) -> Vec<Vec<f64>> {
+    let columns: Vec<Vec<f64>> =
+        (0..).map(|k| column(table, &format!("solids_fraction_{k}"))).take_while(|c| !c.is_empty()).collect();
+    let area = |k: usize| TAU * (k as f64 + 0.5) * RING * RING;
+    let samples = columns.first().map_or(0, Vec::len);
+    (0..samples).map(|t| columns.iter().enumerate().map(|(k, c)| area(k) * c[t]).collect()).collect()
+}
+
+/// The part of the grains that lies outside the heap, of those within half the `width` (m) of the middle.
+fn loose(rings: &[f64], width: f64) -> f64 {
+    let within = |part: f64| rings.iter().take((0.5 * width * part / RING).round() as usize).sum::<f64>();
+    1.0 - within(LOOSE) / within(1.0)
+}
+
+/// The quantities and plots.
+///
+/// # Errors
+/// Whatever the run fails with.
+pub fn run(request: &Request) -> Result<Ran, Failure> {
+    let short: &[&str] = if request.quick { &QUICK } else { &[] };
+    let overrides: Vec<String> = BOTH.iter().chain(short).map(|s| (*s).to_string()).collect();
+    let run = Done::new(CASE, &overrides, &request.out.join("navier-stokes"), !request.quick)?;
+    let width = WIDTHS[usize::from(request.quick)];
+    let rings = rings(&run.table("profile")?);
+    let surface = run.table("surface")?;
+    let (time, dome) = (column(&surface, "time"), column(&surface, "dome"));
+    let outside: Vec<f64> = rings.iter().map(|r| loose(r, width)).collect();
+    let change = |c: &[f64]| match c {
+        [first, .., last] => last / first,
+        _ => f64::NAN,
+    };
+    let computed = vec![
+        Computed::new("height of the heap, end over start", change(&dome)),
+        Computed::new("loose grains, end over start", change(&outside)),
+    ];
+    let figure = |title: &str, unit: &str, values: &[f64]| Figure {
+        title: title.into(),
+        caption: "Once a cycle at phase 0, when the heap lies on the floor.".into(),
+        body: Body::Curves {
+            x: Axis::linear("time", "s"),
+            y: Axis::linear(&title.to_lowercase(), unit),
+            curves: vec![Curve::line("", time.iter().zip(values).map(|(t, v)| [*t, *v]).collect())],
+        },
+    };
+    let figures = vec![
+        figure("Height of the middle over the rim", "m", &dome),
+        figure("Part of the grains outside the heap", "1", &outside),
+    ];
+    Ok(Ran { computed, figures })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn loose_grains_are_those_beyond_the_heap() {
+        // Ten rings in a width of 28 mm; the heap ends after seven.
+        let mut volumes = vec![1.0; 7];
+        volumes.extend([0.5, 0.25, 0.25, 9.0]);
+        assert!((loose(&volumes, 28e-3) - 1.0 / 8.0).abs() < 1e-14);
+    }
+}
