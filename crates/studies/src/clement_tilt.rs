@@ -19,17 +19,17 @@ const TIMES: [f64; 4] = [0.0, 3.0, 6.0, 11.0];
 /// Surfaces are averaged over this long before a time, s: single grains come and go.
 const WINDOW: f64 = 1.0;
 
-/// What the short form lays over the case: half as wide, two fifths as deep, the first half second.
+/// What the short form lays over the case: half as wide, two fifths as deep, three cycles.
 const QUICK: [&str; 9] = [
     "cell.size=[\"10 mm\", \"5 mm\", \"10 mm\"]",
     "grains.0.count=500",
-    "time.dt=1e-4 s",
-    "time.end=6 cycles",
+    "time.settle=0.15 s",
+    "time.end=3 cycles",
     "output.pictures=0",
-    "observe.2.from=3 cycles",
-    "observe.3.from=3 cycles",
+    "observe.2.from=0.1 s",
+    "observe.3.from=0.1 s",
     "observe.3.point=[\"5 mm\", \"2.5 mm\", \"2 mm\"]",
-    "observe.4.from=3 cycles",
+    "observe.4.from=0.1 s",
 ];
 
 /// Heights of the surface, column by column.
