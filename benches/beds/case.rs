@@ -89,11 +89,8 @@ fn spec(
 ) -> DemSpec {
     let elastic = Some(Elastic { youngs_modulus: 7e9, poisson_ratio: 0.24 });
     // The peers start from the lowest point: z = A (1 - cos wt).
-    let shake = Harmonic {
-        amplitude: vec3(0.0, 0.0, amplitude),
-        frequency,
-        phase: vec3(0.0, 0.0, -FRAC_PI_2),
-    };
+    let shake =
+        Harmonic { amplitude: vec3(0.0, 0.0, amplitude), frequency, phase: vec3(0.0, 0.0, -FRAC_PI_2) };
     DemSpec {
         cell: Cell { size: Vec3::from_array(size), sides: [Side::Periodic, Side::Periodic, Side::Walls] },
         materials: vec![Material { name: "grains".into(), density, elastic }],

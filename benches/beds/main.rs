@@ -49,7 +49,10 @@ struct Rates {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let args = Args::parse();
-    println!("million particle-steps per second, medians of {} rounds; ratios are medians of rounds", args.rounds);
+    println!(
+        "million particle-steps per second, medians of {} rounds; ratios are medians of rounds",
+        args.rounds
+    );
     for name in args.cases.chars() {
         let case = Case::read(name, &args.start)?;
         for &threads in args.threads.iter().filter(|&&t| name != 'A' || t == 1) {

@@ -55,7 +55,7 @@ impl Motion {
         let (r, dr, ddr) = smooth_step(t, self.ramp);
         for h in &self.harmonics {
             let w = TAU * h.frequency;
-            for axis in 0..3 {
+            for axis in (0..3).filter(|&axis| h.amplitude[axis] != 0.0) {
                 let (s, c) = (w * t + h.phase[axis]).sin_cos();
                 let a = h.amplitude[axis];
                 m.displacement[axis] += r * a * s;

@@ -156,7 +156,7 @@ impl<L: Law, W: Width> Active<L, W> {
 
     #[inline(always)]
     fn pairs_by<R: Wide>(&self, mut job: PairJob<'_>, counted: &mut Tally) {
-        if self.spins {
+        if (L::TANGENTIAL || L::ROLLS) && self.spins {
             sweep::<L, R, true>(&self.table, &mut job, counted);
         } else {
             sweep::<L, R, false>(&self.table, &mut job, counted);
@@ -165,7 +165,7 @@ impl<L: Law, W: Width> Active<L, W> {
 
     #[inline(always)]
     fn walls_by<R: Wide>(&self, mut job: WallJob<'_>, counted: &mut Tally) {
-        if self.spins {
+        if (L::TANGENTIAL || L::ROLLS) && self.spins {
             sweep_walls::<L, R, true>(&self.table, &mut job, counted);
         } else {
             sweep_walls::<L, R, false>(&self.table, &mut job, counted);

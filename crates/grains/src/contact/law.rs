@@ -26,27 +26,15 @@ pub struct Touch<R> {
     pub slip: V3<R>,
     /// Angular velocity of the first body minus that of the second, rad/s (zero unless a rolling law asks).
     pub roll: V3<R>,
-    /// 1/m1 + 1/m2, 1/kg.
-    pub inverse_mass: R,
-    /// 1/r1 + 1/r2, 1/m.
-    pub inverse_radius: R,
+    /// Effective mass, kg (Clément eq. 2.21).
+    pub mass: R,
+    /// Effective radius, m (Clément eq. 2.6); anything unless a part of the law sets `RADIUS`.
+    pub radius: R,
     /// Length of the step, s.
     pub dt: R,
 }
 
 impl<R: Real> Touch<R> {
-    /// Effective mass, kg (Clément eq. 2.21).
-    #[inline(always)]
-    pub fn mass(&self) -> R {
-        R::splat(1.0) / self.inverse_mass
-    }
-
-    /// Effective radius, m (Clément eq. 2.6).
-    #[inline(always)]
-    pub fn radius(&self) -> R {
-        R::splat(1.0) / self.inverse_radius
-    }
-
     /// Weight of this step for a force that sets in at full strength: 1, but between 0 and 3/2 within two
     /// steps of touching or parting.
     ///
@@ -74,6 +62,8 @@ pub struct NormalForce<R> {
     pub elastic: R,
     /// Force of the dashpot, N.
     pub damping: R,
+    /// Secant of the spring, `elastic` over the overlap, N/m.
+    pub secant: R,
     /// Energy stored in the spring, J.
     pub stored: R,
     /// Energy lost to the dashpot in this step, J.
@@ -149,6 +139,8 @@ pub trait Normal: Copy + Send + Sync + 'static {
     type Lanes<R: Real>: Copy;
     /// How many numbers the contact remembers; all zero before the first touch.
     const SLOTS: usize;
+    /// Reads the effective radius.
+    const RADIUS: bool = false;
     /// Derives the constants; says what is missing.
     fn build(pair: &PairContext<'_>) -> Result<Self, SpecError>;
     /// Each constant through `pick`: `Lanes { stiffness: pick(|c| c.stiffness), .. }`.
@@ -194,7 +186,7 @@ pub trait Tangential: Copy + Send + Sync + 'static {
 pub trait Rolling: Copy + Send + Sync + 'static {
     /// The same constants, lane by lane.
     type Lanes<R: Real>: Copy;
-    /// False only for the absent law: spins are then not compared.
+    /// False only for the absent law: spins are then not compared, nor is the effective radius computed.
     const ACTIVE: bool;
     /// How many numbers the contact remembers.
     const SLOTS: usize;

@@ -55,6 +55,14 @@ pub trait Law: Copy + Send + Sync + 'static {
     const TANGENTIAL: bool;
     /// There is a rolling couple.
     const ROLLS: bool;
+    /// A part reads the effective radius.
+    const RADIUS: bool;
+    /// Losses that may not be zero, as bits.
+    const LOSSES: u32 = 1 << energy::DAMPED
+        | (Self::TANGENTIAL as u32) << energy::SLID
+        | (Self::TANGENTIAL as u32) << energy::TANGENTIAL
+        | (Self::ROLLS as u32) << energy::ROLLED
+        | ((Self::SLOTS > 0) as u32) << energy::LATCHED;
     /// Derives the constants.
     fn build(pair: &PairContext<'_>) -> Result<Self, SpecError>;
     /// Lane `k` takes the constants of `table[class(k)]`.
@@ -75,6 +83,7 @@ impl<N: Normal, T: Tangential, O: Rolling> Law for Pair<N, T, O> {
     const ODD: u32 = T::ODD << N::SLOTS | O::ODD << (N::SLOTS + T::SLOTS);
     const TANGENTIAL: bool = T::ACTIVE;
     const ROLLS: bool = O::ACTIVE;
+    const RADIUS: bool = N::RADIUS || O::ACTIVE;
 
     fn build(pair: &PairContext<'_>) -> Result<Self, SpecError> {
         Ok(Self { normal: N::build(pair)?, tangential: T::build(pair)?, rolling: O::build(pair)? })

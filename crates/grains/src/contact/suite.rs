@@ -190,8 +190,8 @@ fn touch(b: &[Body; 2], v: [Vec3; 2], w: [Vec3; 2], dt: f64) -> Option<(Touch<f6
         approach: -closing,
         slip: lanes(relative - n * closing - surface.cross(n) * lever),
         roll: lanes(w[0] - w[1]),
-        inverse_mass: 1.0 / b[0].mass + 1.0 / b[1].mass,
-        inverse_radius: 1.0 / b[0].radius + 1.0 / b[1].radius,
+        mass: effective_mass(b[0].mass, b[1].mass),
+        radius: effective_radius(b[0].radius, b[1].radius),
         dt,
     };
     Some((touch, lever))
@@ -281,8 +281,8 @@ impl Path {
             approach: (d1 - d0) / dt,
             slip: lanes(q * ((x1 - x0) / dt)),
             roll: lanes(roll),
-            inverse_mass: 1.0 / Body::sphere(3e-3).mass,
-            inverse_radius: 1.0 / 3e-3,
+            mass: Body::sphere(3e-3).mass,
+            radius: 3e-3,
             dt,
         }
     }
@@ -342,7 +342,7 @@ fn friction_and_rolling_couples_stay_within_their_limits() {
                 let slack = 1.0 + 1e-12;
                 assert!(glam(a.tangential).length() <= FRICTION * load * slack + 1e-18, "{case:?}");
                 assert!(
-                    glam(a.couple).length() <= ROLLING_FRICTION * load / t.inverse_radius * slack + 1e-18,
+                    glam(a.couple).length() <= ROLLING_FRICTION * load * t.radius * slack + 1e-18,
                     "{case:?}"
                 );
                 assert!(

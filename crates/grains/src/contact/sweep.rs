@@ -159,13 +159,19 @@ pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<
         }
 
         let distance = square.sqrt();
-        let n = d * (R::splat(1.0) / distance);
+        let spins = if SPINS || L::RADIUS { R::spin_sum(job.spins, i, j) } else { [R::zero(); 4] };
+        let [per_distance, per_reach, mass, radius] = if L::RADIUS {
+            inverse([distance, reach, row[7], spins[3]])
+        } else {
+            let [a, b, c] = inverse([distance, reach, row[7]]);
+            [a, b, c, R::zero()]
+        };
+        let n = d * per_distance;
         let v = V3::new(row[4], row[5], row[6]);
         let closing = v.dot(n);
-        let lever = distance / reach;
+        let lever = distance * per_reach;
         let slip = if SPINS {
-            let s = R::spin_sum(job.spins, i, j);
-            v - n * closing - V3::new(s[0], s[1], s[2]).cross(n) * lever
+            v - n * closing - V3::new(spins[0], spins[1], spins[2]).cross(n) * lever
         } else {
             v - n * closing
         };
@@ -175,16 +181,14 @@ pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<
         } else {
             V3::zero()
         };
-        let inverse_radius =
-            if SPINS { R::spin_sum(job.spins, i, j)[3] } else { inverse_radii::<R>(job.spins, i, j) };
         let touch = Touch {
             overlap: (reach - distance).max(R::zero()),
             normal: n,
             approach: -closing,
             slip,
             roll,
-            inverse_mass: row[7],
-            inverse_radius,
+            mass,
+            radius,
             dt: R::splat(job.dt),
         };
 
@@ -195,7 +199,7 @@ pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<
             forget::<L, R>(&law, &old, &mut new, touching, counted, p);
             remember(&new, job.memory, p, L::SLOTS);
         }
-        for k in 0..energy::KINDS {
+        for k in (0..energy::KINDS).filter(|k| L::LOSSES >> k & 1 == 1) {
             tally(&mut counted.energy[k], p, answer.energy[k].keep(touching));
         }
         let largest = &mut counted.overlap[p % BATCH..];
@@ -230,8 +234,21 @@ fn across<R: Real>(coded: &[u32], size: [f64; 3]) -> V3<R> {
     V3::new(shift(0), shift(1), shift(2))
 }
 
-/// 1/r1 + 1/r2 where spins are not otherwise needed.
+/// The inverse of each of `x` at the price of one division.
 #[inline(always)]
-fn inverse_radii<R: Wide>(spins: &[Spin], i: &[u32], j: &[u32]) -> R {
-    R::from_lanes(|k| spins[i[k] as usize].0[3] + spins[j[k] as usize].0[3])
+fn inverse<R: Real, const N: usize>(x: [R; N]) -> [R; N] {
+    // Products of all before, then of all behind.
+    let mut result = x;
+    let mut product = x[0];
+    for k in 1..N {
+        result[k] = product;
+        product = product * x[k];
+    }
+    let mut rest = R::splat(1.0) / product;
+    for k in (1..N).rev() {
+        result[k] = result[k] * rest;
+        rest = rest * x[k];
+    }
+    result[0] = rest;
+    result
 }

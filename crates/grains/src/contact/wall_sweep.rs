@@ -137,8 +137,8 @@ fn contact<L: Law, R: Wide, const SPINS: bool>(
         approach: -closing,
         slip,
         roll: if SPINS && L::ROLLS { vector(&c.angular, lane) } else { V3::zero() },
-        inverse_mass: R::load(&c.inverse_mass[lane..]),
-        inverse_radius: R::splat(1.0) / radius + R::load(&c.curvature[lane..]),
+        mass: R::splat(1.0) / R::load(&c.inverse_mass[lane..]),
+        radius: radius / (R::splat(1.0) + radius * R::load(&c.curvature[lane..])),
         dt: R::splat(job.dt),
     };
 
@@ -150,7 +150,7 @@ fn contact<L: Law, R: Wide, const SPINS: bool>(
         remember(&new, job.memory, p, L::SLOTS);
     }
     let f = answer.force.keep(touching);
-    for k in 0..energy::KINDS {
+    for k in (0..energy::KINDS).filter(|k| L::LOSSES >> k & 1 == 1) {
         tally(&mut counted.energy[k], p, answer.energy[k].keep(touching));
     }
     tally(&mut counted.wall_work, p, f.dot(wall_velocity) * touch.dt);

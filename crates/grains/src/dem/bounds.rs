@@ -39,21 +39,23 @@ impl Dem {
             order.sort(state, grid, rows, spins);
         }
         let parallel = self.parallel(state);
-        let scratch = &mut self.scratch;
+        self.scratch.fit_work(&state.blocks);
+        let Scratch { work, grid, .. } = &mut self.scratch;
         let scene =
             Scene { cell: &self.spec.cell, rows: &state.rows, small: state.small, skin: state.skins.outer };
-        let find = |lists: &mut Lists| {
+        let level = self.spec.search.sweep.level();
+        let find = |(lists, work): (&mut Lists, &mut Work)| {
             if all_pairs || lists.start >= state.small {
-                lists.find_all(&scene);
+                level.run(Few { scene: &scene, lists, work });
             } else {
-                lists.find(&scene, &scratch.grid);
+                lists.find(&scene, grid);
             }
             lists.walls.find(&state.rows, (lists.start, lists.end), &self.walls, state.skins.outer);
         };
         if parallel {
-            state.blocks.par_iter_mut().for_each(find);
+            state.blocks.par_iter_mut().zip(work.par_iter_mut()).for_each(find);
         } else {
-            state.blocks.iter_mut().for_each(find);
+            state.blocks.iter_mut().zip(work.iter_mut()).for_each(find);
         }
         state.drift = Drift::default();
         mark(&mut state.wall_marks[0], &self.walls);
@@ -103,6 +105,22 @@ impl Dem {
             handover.take_walls(&lists.walls, &state.tags);
         }
         handover.index(state.tags.len());
+    }
+}
+
+/// Search among few bodies for whatever lanes the machine has.
+struct Few<'a> {
+    scene: &'a Scene<'a>,
+    lists: &'a mut Lists,
+    work: &'a mut Work,
+}
+
+impl Job for Few<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Wide>(self) {
+        self.lists.find_all::<R>(self.scene, &mut self.work.columns);
     }
 }
 

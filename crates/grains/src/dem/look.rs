@@ -75,7 +75,7 @@ impl Dem {
         let roll = vec3(sa[0], sa[1], sa[2]) * sa[3] - vec3(sb[0], sb[1], sb[2]) * sb[3];
         let touch =
             self.touch(n, reach - distance, a.velocity() - b.velocity(), (surface, distance / reach), roll);
-        let touch = Touch { inverse_mass: a.0[7] + b.0[7], inverse_radius: sa[3] + sb[3], ..touch };
+        let touch = Touch { mass: 1.0 / (a.0[7] + b.0[7]), radius: 1.0 / (sa[3] + sb[3]), ..touch };
         let answer = self.ask(&pairs.class, &pairs.memory, p, &touch);
         see(&ContactView {
             first: state.tags[i].id as usize,
@@ -105,7 +105,7 @@ impl Dem {
         let v = g.velocity() - walls.velocity(usize::from(wall));
         let lever = near.distance / radius;
         let touch = self.touch(near.normal, radius - near.distance, v, (surface, lever), surface * s[3]);
-        let touch = Touch { inverse_mass: g.0[7], inverse_radius: s[3] + near.curvature, ..touch };
+        let touch = Touch { mass: 1.0 / g.0[7], radius: 1.0 / (s[3] + near.curvature), ..touch };
         let answer = self.ask(&list.class, &list.memory, p, &touch);
         see(&ContactView {
             first: state.tags[row as usize].id as usize,
@@ -125,8 +125,8 @@ impl Dem {
             approach: -closing,
             slip: lanes(v - n * closing - spin),
             roll: lanes(if self.spec.rotation { roll } else { Vec3::ZERO }),
-            inverse_mass: 0.0,
-            inverse_radius: 0.0,
+            mass: 0.0,
+            radius: 0.0,
             dt: self.spec.dt,
         }
     }

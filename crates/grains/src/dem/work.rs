@@ -2,6 +2,7 @@
 
 use crate::contact::sweep::Tally;
 use crate::motion::Passed;
+use crate::neighbors::all::Columns;
 use crate::neighbors::inner::Spare;
 use crate::packed::{Couple, Force};
 use crate::wall::WallLoad;
@@ -22,6 +23,8 @@ pub struct Work {
     pub passed: Passed,
     /// Buffers of pruning.
     pub spare: Spare,
+    /// Buffers of the search among few.
+    pub columns: Columns,
 }
 
 impl Default for Work {
@@ -34,6 +37,7 @@ impl Default for Work {
             discard: Tally::default(),
             passed: Passed::nothing(),
             spare: Spare::default(),
+            columns: Columns::default(),
         }
     }
 }

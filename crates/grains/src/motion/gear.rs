@@ -1,7 +1,8 @@
 //! Gear's predictor-corrector.
 
 use super::Pace;
-use super::scheme::{Moved, Scheme, get, put};
+use super::quad::Quad;
+use super::scheme::{Moved, Scheme};
 use brazilnut_base::Vec3;
 
 /// Prediction by Taylor series up to the third derivative, correction by the
@@ -21,20 +22,21 @@ impl Scheme for Gear {
 
     #[inline(always)]
     fn translate(
-        r: Vec3,
-        v: Vec3,
+        r: Quad,
+        v: Quad,
         half: &mut [f64; 8],
         higher: &mut [f64; 12],
-        a: Vec3,
+        a: Quad,
         pace: &Pace,
     ) -> Moved {
         let dt = pace.tick.dt;
-        let (a_p, b_p) = if pace.kick.first { (a, Vec3::ZERO) } else { (get(higher, 0), get(higher, 3)) };
+        let (a_p, b_p) =
+            if pace.kick.first { (a, Quad::default()) } else { (get(higher, 0), get(higher, 3)) };
         let error = (a - a_p) * (0.5 * dt * dt);
-        let r_c = r + C[0] * error;
-        let v_c = v + C[1] * error / dt;
-        let b_c = b_p + C[3] * error * (6.0 / (dt * dt * dt));
-        put(half, 0, v_c);
+        let r_c = r + error * C[0];
+        let v_c = v + error * (C[1] / dt);
+        let b_c = b_p + error * (C[3] * 6.0 / (dt * dt * dt));
+        v_c.with(half[3]).store(half, 0);
         put(higher, 0, a + b_c * dt);
         put(higher, 3, b_c);
         let position = r_c + v_c * dt + a * (0.5 * dt * dt) + b_c * (dt * dt * dt / 6.0);
@@ -43,18 +45,19 @@ impl Scheme for Gear {
 
     #[inline(always)]
     fn rotate(
-        omega: Vec3,
+        omega: Quad,
         half: &mut [f64; 8],
         higher: &mut [f64; 12],
-        alpha: Vec3,
+        alpha: Quad,
         pace: &Pace,
-    ) -> (Vec3, Vec3) {
+    ) -> (Quad, Quad) {
         let dt = pace.tick.dt;
-        let (a_p, b_p) = if pace.kick.first { (alpha, Vec3::ZERO) } else { (get(higher, 6), get(higher, 9)) };
+        let (a_p, b_p) =
+            if pace.kick.first { (alpha, Quad::default()) } else { (get(higher, 6), get(higher, 9)) };
         let error = (alpha - a_p) * (0.5 * dt * dt);
-        let omega_c = omega + C[1] * error / dt;
-        let b_c = b_p + C[3] * error * (6.0 / (dt * dt * dt));
-        put(half, 4, omega_c);
+        let omega_c = omega + error * (C[1] / dt);
+        let b_c = b_p + error * (C[3] * 6.0 / (dt * dt * dt));
+        omega_c.with(half[7]).store(half, 4);
         put(higher, 6, alpha + b_c * dt);
         put(higher, 9, b_c);
         (omega_c, omega_c + alpha * dt + b_c * (0.5 * dt * dt))
@@ -63,4 +66,16 @@ impl Scheme for Gear {
     fn half_of(v: Vec3, _: f64) -> Vec3 {
         v
     }
+}
+
+/// Three numbers from place `at` on as a vector.
+#[inline(always)]
+fn get(higher: &[f64; 12], at: usize) -> Quad {
+    Quad([higher[at], higher[at + 1], higher[at + 2], 0.0])
+}
+
+/// Writes a vector there.
+#[inline(always)]
+fn put(higher: &mut [f64; 12], at: usize, v: Quad) {
+    higher[at..at + 3].copy_from_slice(&v.0[..3]);
 }

@@ -1,6 +1,7 @@
 //! From forces to motion: one pass over the grains of a block.
 
 mod gear;
+mod quad;
 mod rotation;
 mod scheme;
 mod verlet;
@@ -12,6 +13,7 @@ pub use verlet::{PositionVerlet, VelocityVerlet};
 use crate::field::{Field, GrainAt, Push};
 use crate::packed::{Couple, Force, Half, Rest, Row, Spin, Tag};
 use brazilnut_base::{Tick, Vec3, vec3};
+use quad::Quad;
 
 /// What is the same for all grains of a step.
 #[derive(Clone, Copy, Debug)]
@@ -81,46 +83,77 @@ impl Passed {
     }
 }
 
+/// [`Passed`] while the pass runs, component by component.
+struct Sums {
+    work: [Quad; 3],
+    moved: [Quad; 2],
+    extent: [Quad; 2],
+}
+
+impl Sums {
+    fn nothing() -> Self {
+        let ends = [Quad::splat(f64::INFINITY), Quad::splat(f64::NEG_INFINITY)];
+        Self { work: [Quad::splat(0.0); 3], moved: ends, extent: ends }
+    }
+
+    /// Takes note of a grain that `push` moved as `moved` says, turning at `turned` (rad/s) meanwhile.
+    #[inline(always)]
+    fn note(&mut self, pace: &Pace, push: &Push, moved: &Moved, turned: Quad) {
+        let length = pace.kick.length;
+        let path = moved.middle * length;
+        self.work[0] = self.work[0] + Quad::from(push.gravity) * path;
+        self.work[1] = self.work[1] + Quad::from(push.frame) * path;
+        let torque = Quad::from(push.torque) * (turned * length);
+        self.work[2] = self.work[2] + (Quad::from(push.fluid) * path + torque);
+        self.moved = [self.moved[0].min(moved.step), self.moved[1].max(moved.step)];
+        self.extent = [self.extent[0].min(moved.position), self.extent[1].max(moved.position)];
+    }
+
+    fn passed(&self) -> Passed {
+        Passed {
+            work: self.work.map(|w| w.0[0] + w.0[1] + w.0[2]),
+            moved: self.moved.map(Quad::vector),
+            extent: self.extent.map(Quad::vector),
+        }
+    }
+}
+
 /// Moves every grain of the block by one step.
 pub fn advance<S: Scheme, F: Field>(m: &mut Movers<'_>, pace: &Pace, field: &F) -> Passed {
-    let mut passed = Passed::nothing();
+    let mut sums = Sums::nothing();
+    let (free, turns) = (Quad::from(pace.free), Quad::from(pace.turns));
     for g in 0..m.rows.len() {
-        let row = &m.rows[g].0;
-        let spin = &m.spins[g].0;
+        let (row, spin, forces) = (&m.rows[g].0, &m.spins[g].0, &m.forces[g].0);
         let half = &mut m.halves[g].0;
-        let here = grain_at(row, spin, half, m.tags[g]);
-        let push = field.push(&pace.tick, &here);
-        let contact = vec3(m.forces[g].0[0], m.forces[g].0[1], m.forces[g].0[2]);
-        let force = contact + push.gravity + push.frame + push.fluid;
+        let push = field.push(&pace.tick, &grain_at(row, spin, half, m.tags[g]));
+        let outside = Quad::from(push.gravity) + Quad::from(push.frame) + Quad::from(push.fluid);
         let mut none = [0.0; 12];
         let higher = if S::HIGHER { &mut m.higher[g] } else { &mut none };
 
-        let moved =
-            S::translate(here.position, here.velocity, half, higher, force * row[7] * pace.free, pace);
+        let acceleration = (Quad::load(forces, 0) + outside) * row[7] * free;
+        let (position, velocity) = (Quad::load(row, 0), Quad::load(row, 4));
+        let moved = S::translate(position, velocity, half, higher, acceleration, pace);
         let next = &mut m.next_rows[g].0;
-        next[..3].copy_from_slice(&moved.position.to_array());
-        next[3] = row[3];
-        next[4..7].copy_from_slice(&moved.velocity.to_array());
-        next[7] = row[7];
+        moved.position.with(row[3]).store(next, 0);
+        moved.velocity.with(row[7]).store(next, 4);
 
-        let mut turned = Vec3::ZERO;
+        let mut turned = Quad::splat(0.0);
         if pace.rotation {
-            let lever = vec3(m.forces[g].0[4], m.forces[g].0[5], m.forces[g].0[6]);
-            let couple = m.couples.get(g).map_or(Vec3::ZERO, |c| vec3(c.0[0], c.0[1], c.0[2]));
+            let couple = m.couples.get(g).map_or(Quad::splat(0.0), |c| Quad(c.0));
             // half[7] is r/I and spin[3] is 1/r: torque over inertia.
-            let response = half[7];
-            let alpha = ((couple + push.torque) * spin[3] - lever) * response * pace.turns;
-            let (mid, omega) = S::rotate(here.angular_velocity, half, higher, alpha, pace);
+            let torque = (couple + Quad::from(push.torque)) * spin[3] - Quad::load(forces, 4);
+            let alpha = torque * half[7] * turns;
+            let omega = Quad(*spin) * spin[3];
+            let (mid, omega) = S::rotate(omega, half, higher, alpha, pace);
             turned = mid;
-            m.next_spins[g].0 = [row[3] * omega.x, row[3] * omega.y, row[3] * omega.z, spin[3]];
-            let step = vec3(half[4], half[5], half[6]) * pace.tick.dt;
-            rotation::turn(&mut m.rest[g].orientation, step);
+            (omega * row[3]).with(spin[3]).store(&mut m.next_spins[g].0, 0);
+            rotation::turn(&mut m.rest[g].orientation, Quad::load(half, 4) * (0.5 * pace.tick.dt));
         } else {
             m.next_spins[g].0 = *spin;
         }
-        note(&mut passed, pace, &push, &moved, turned);
+        sums.note(pace, &push, &moved, turned);
     }
-    passed
+    sums.passed()
 }
 
 /// The grain as the field sees it.
@@ -135,14 +168,4 @@ fn grain_at(row: &[f64; 8], spin: &[f64; 4], half: &[f64; 8], tag: Tag) -> Grain
         velocity: vec3(row[4], row[5], row[6]),
         angular_velocity: vec3(spin[0], spin[1], spin[2]) * spin[3],
     }
-}
-
-#[inline(always)]
-fn note(passed: &mut Passed, pace: &Pace, push: &Push, moved: &Moved, turned: Vec3) {
-    let path = moved.middle * pace.kick.length;
-    passed.work[0] += push.gravity.dot(path);
-    passed.work[1] += push.frame.dot(path);
-    passed.work[2] += push.fluid.dot(path) + push.torque.dot(turned) * pace.kick.length;
-    passed.moved = [passed.moved[0].min(moved.step), passed.moved[1].max(moved.step)];
-    passed.extent = [passed.extent[0].min(moved.position), passed.extent[1].max(moved.position)];
 }

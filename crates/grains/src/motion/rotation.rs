@@ -1,30 +1,29 @@
 //! Orientations.
 
-use brazilnut_base::{Quat, Vec3};
+use super::quad::Quad;
 
-/// Turns the orientation `q` by the small rotation vector `angle` (rad):
-/// q <- (1, angle/2) q, brought back to unit length. Third order in the angle.
+/// Turns the orientation `q` (x y z w) by twice the small rotation vector `half` (rad):
+/// q <- (half, 1) q, brought back to unit length. Third order in the angle.
 #[inline(always)]
-pub fn turn(q: &mut [f64; 4], angle: Vec3) {
-    let old = Quat::from_array(*q);
-    let half = 0.5 * angle;
-    let new = Quat::from_xyzw(half.x, half.y, half.z, 1.0) * old;
+pub fn turn(q: &mut [f64; 4], half: Quad) {
+    let ([x, y, z, w], [a, b, c, _]) = (*q, half.0);
+    let new = Quad(*q) + Quad([w, -z, y, -x]) * a + Quad([z, w, -x, -y]) * b + Quad([-y, x, w, -z]) * c;
     // One Newton step of 1/sqrt: the length is 1 up to the square of the angle.
-    let scale = 1.5 - 0.5 * new.length_squared();
-    *q = (new * scale).to_array();
+    let [x, y, z, w] = (new * new).0;
+    *q = (new * (1.5 - 0.5 * ((x + y) + (z + w)))).0;
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use brazilnut_base::vec3;
+    use brazilnut_base::Quat;
 
     #[test]
     fn many_small_turns_make_a_large_one() {
         let mut q = Quat::IDENTITY.to_array();
         let n = 10_000;
         for _ in 0..n {
-            turn(&mut q, vec3(0.0, 0.0, 1.0 / f64::from(n)));
+            turn(&mut q, Quad([0.0, 0.0, 0.5 / f64::from(n), 0.0]));
         }
         let q = Quat::from_array(q);
         // Each turn is atan(a/2)*2 = a - a³/12: relative 1e-9 at a = 1e-4.

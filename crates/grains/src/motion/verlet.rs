@@ -1,7 +1,8 @@
 //! Verlet's scheme in its two forms.
 
 use super::Pace;
-use super::scheme::{Moved, Scheme, get, put};
+use super::quad::Quad;
+use super::scheme::{Moved, Scheme};
 use brazilnut_base::Vec3;
 
 /// v(t + dt/2) = v(t - dt/2) + a dt, r(t + dt) = r(t) + v(t + dt/2) dt.
@@ -15,17 +16,17 @@ impl Scheme for VelocityVerlet {
     const HIGHER: bool = false;
 
     #[inline(always)]
-    fn translate(r: Vec3, _: Vec3, half: &mut [f64; 8], _: &mut [f64; 12], a: Vec3, pace: &Pace) -> Moved {
+    fn translate(r: Quad, _: Quad, half: &mut [f64; 8], _: &mut [f64; 12], a: Quad, pace: &Pace) -> Moved {
         let dt = pace.tick.dt;
-        let before = get(half, 0);
+        let before = Quad::load(half, 0);
         let after = before + a * pace.kick.length;
-        put(half, 0, after);
+        after.store(half, 0);
         let step = after * dt;
-        Moved { position: r + step, velocity: after + a * (0.5 * dt), middle: 0.5 * (before + after), step }
+        Moved { position: r + step, velocity: after + a * (0.5 * dt), middle: (before + after) * 0.5, step }
     }
 
     #[inline(always)]
-    fn rotate(_: Vec3, half: &mut [f64; 8], _: &mut [f64; 12], alpha: Vec3, pace: &Pace) -> (Vec3, Vec3) {
+    fn rotate(_: Quad, half: &mut [f64; 8], _: &mut [f64; 12], alpha: Quad, pace: &Pace) -> (Quad, Quad) {
         kick_spin(half, alpha, pace)
     }
 
@@ -46,21 +47,21 @@ impl Scheme for PositionVerlet {
     const HIGHER: bool = false;
 
     #[inline(always)]
-    fn translate(r: Vec3, _: Vec3, half: &mut [f64; 8], _: &mut [f64; 12], a: Vec3, pace: &Pace) -> Moved {
+    fn translate(r: Quad, _: Quad, half: &mut [f64; 8], _: &mut [f64; 12], a: Quad, pace: &Pace) -> Moved {
         let dt = pace.tick.dt;
-        let before = get(half, 0);
+        let before = Quad::load(half, 0);
         let step = before + a * (dt * pace.kick.length);
-        put(half, 0, step);
+        step.store(half, 0);
         Moved {
             position: r + step,
-            velocity: (step + a * (0.5 * dt * dt)) / dt,
-            middle: 0.5 * (before + step) / dt,
+            velocity: (step + a * (0.5 * dt * dt)) * (1.0 / dt),
+            middle: (before + step) * (0.5 / dt),
             step,
         }
     }
 
     #[inline(always)]
-    fn rotate(_: Vec3, half: &mut [f64; 8], _: &mut [f64; 12], alpha: Vec3, pace: &Pace) -> (Vec3, Vec3) {
+    fn rotate(_: Quad, half: &mut [f64; 8], _: &mut [f64; 12], alpha: Quad, pace: &Pace) -> (Quad, Quad) {
         kick_spin(half, alpha, pace)
     }
 
@@ -71,9 +72,9 @@ impl Scheme for PositionVerlet {
 
 /// The rotation of both forms: angles have no Verlet equation of their own.
 #[inline(always)]
-fn kick_spin(half: &mut [f64; 8], alpha: Vec3, pace: &Pace) -> (Vec3, Vec3) {
-    let before = get(half, 4);
+fn kick_spin(half: &mut [f64; 8], alpha: Quad, pace: &Pace) -> (Quad, Quad) {
+    let before = Quad::load(half, 4);
     let after = before + alpha * pace.kick.length;
-    put(half, 4, after);
-    (0.5 * (before + after), after + alpha * (0.5 * pace.tick.dt))
+    after.store(half, 4);
+    ((before + after) * 0.5, after + alpha * (0.5 * pace.tick.dt))
 }

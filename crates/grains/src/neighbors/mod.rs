@@ -4,6 +4,7 @@
 //! displacement since is bounded by the sum over steps of the spread of all
 //! grains' displacements, axis by axis, so no speed can outrun it.
 
+pub mod all;
 pub mod grid;
 pub mod handover;
 pub mod inner;

@@ -1,6 +1,8 @@
 //! The outer list: every pair within a wide skin.
 
+use super::all::Columns;
 use super::grid::{FORWARD, Grid};
+use crate::lanes::Wide;
 use crate::packed::{DUMMIES, INDEX_BITS, Row, image_code};
 use crate::state::{BATCH, Lists, Pairs};
 use brazilnut_base::{Cell, Vec3};
@@ -125,13 +127,15 @@ impl Lists {
     }
 
     /// Finds all pairs of rows `start..end`, which are all rows of their kind, by testing each.
-    pub fn find_all(&mut self, scene: &Scene<'_>) {
+    #[inline(always)]
+    pub fn find_all<R: Wide>(&mut self, scene: &Scene<'_>, columns: &mut Columns) {
         self.clear();
-        for i in self.start..self.end {
-            for j in i + 1..self.end {
-                scene.images(i, j, |code| self.inside.push(i, j, code));
-            }
-        }
+        let first = self.start;
+        columns.fill(&scene.rows[first..self.end]);
+        columns.pairs::<R>(scene.cell, scene.skin, |i, j| {
+            let (i, j) = (first + i, first + j);
+            scene.images(i, j, |code| self.inside.push(i, j, code));
+        });
         if self.start < scene.small {
             self.find_big(scene);
         }

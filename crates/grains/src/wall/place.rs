@@ -10,6 +10,8 @@ pub struct Walls {
     specs: Vec<WallSpec>,
     displacement: Vec<Vec3>,
     velocity: Vec<Vec3>,
+    /// Time to which they were moved last, s.
+    time: Option<f64>,
 }
 
 /// The point of a wall nearest to a grain's centre, seen from there.
@@ -33,7 +35,7 @@ impl Walls {
     #[must_use]
     pub fn new(cell: Cell, specs: &[WallSpec]) -> Self {
         let still = vec![Vec3::ZERO; specs.len()];
-        Self { cell, specs: specs.to_vec(), displacement: still.clone(), velocity: still }
+        Self { cell, specs: specs.to_vec(), displacement: still.clone(), velocity: still, time: None }
     }
 
     /// Number of walls.
@@ -50,6 +52,10 @@ impl Walls {
 
     /// Moves the walls to where they are at `time` (s).
     pub fn move_to(&mut self, time: f64) {
+        if self.time == Some(time) {
+            return;
+        }
+        self.time = Some(time);
         for k in 0..self.specs.len() {
             let m = self.specs[k].motion.at(time);
             self.displacement[k] = m.displacement;

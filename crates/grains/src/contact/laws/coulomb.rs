@@ -1,7 +1,7 @@
 //! Sliding friction without memory.
 
 use crate::contact::law::{NormalForce, PairContext, Tangential, TangentialForce, Touch};
-use crate::contact::real::Real;
+use crate::contact::real::{Mask, Real};
 use crate::spec::SpecError;
 
 /// Steps in which the dashpot alone would stop the slip of a free pair.
@@ -50,14 +50,17 @@ impl Tangential for Coulomb {
         normal: &NormalForce<R>,
         _: &mut [R],
     ) -> TangentialForce<R> {
-        let speed = touch.slip.length();
+        let square = touch.slip.dot(touch.slip);
         let limit = law.friction * normal.load();
-        let gamma = law.damping + law.rate * touch.mass();
-        let viscous = gamma * speed;
-        let slides = limit.lt(viscous);
-        // Where the contact slides the speed is positive, so the quotient is finite.
-        let coefficient = R::pick(slides, limit / speed, gamma);
-        let lost = coefficient * speed * speed * touch.dt;
+        let gamma = law.damping + law.rate * touch.mass;
+        let slides = (limit * limit).lt(gamma * gamma * square);
+        let coefficient = if slides.any() {
+            // Where the contact slides the speed is positive, so the quotient is finite.
+            R::pick(slides, limit / square.sqrt(), gamma)
+        } else {
+            gamma
+        };
+        let lost = coefficient * square * touch.dt;
         TangentialForce {
             force: -(touch.slip * coefficient),
             stored: R::zero(),

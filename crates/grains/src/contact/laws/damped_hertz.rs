@@ -25,6 +25,7 @@ const LOWEST: f64 = 0.01;
 impl Normal for DampedHertz {
     type Lanes<R: Real> = DampedHertz<R>;
     const SLOTS: usize = 0;
+    const RADIUS: bool = true;
 
     fn build(c: &PairContext<'_>) -> Result<Self, SpecError> {
         let e = c.pair.restitution;
@@ -57,14 +58,15 @@ impl Normal for DampedHertz {
         let squared = law.stiffness.squared(touch);
         let root = touch.overlap.sqrt();
         let stiffness = squared.sqrt();
-        let elastic = stiffness * root * touch.overlap;
+        let secant = stiffness * root;
+        let elastic = secant * touch.overlap;
         // m^(2/5) k^(3/5) = (m² k³)^(1/5)
-        let mass = touch.mass();
-        let scale = fifth_root(mass * mass * squared * stiffness);
+        let scale = fifth_root(touch.mass * touch.mass * squared * stiffness);
         let damping = law.damping * scale * root * touch.approach;
         NormalForce {
             elastic,
             damping,
+            secant,
             stored: R::splat(0.4) * elastic * touch.overlap,
             damped: damping * touch.approach * touch.dt,
             latched: R::zero(),

@@ -51,19 +51,14 @@ impl<R: Real> HertzStiffness<R> {
     /// k², N² m^(-3).
     #[inline(always)]
     pub(super) fn squared(&self, touch: &Touch<R>) -> R {
-        self.given + self.modulus / touch.inverse_radius
-    }
-
-    /// k sqrt(delta), N/m: two thirds of the slope of the spring.
-    #[inline(always)]
-    pub(super) fn secant(&self, touch: &Touch<R>) -> R {
-        (self.squared(touch) * touch.overlap).sqrt()
+        self.given + self.modulus * touch.radius
     }
 }
 
 impl Normal for Hertz {
     type Lanes<R: Real> = Hertz<R>;
     const SLOTS: usize = 0;
+    const RADIUS: bool = true;
 
     fn build(c: &PairContext<'_>) -> Result<Self, SpecError> {
         let damping = 5.0_f64.sqrt() * damping_ratio(c.pair.restitution);
@@ -79,12 +74,13 @@ impl Normal for Hertz {
 
     #[inline(always)]
     fn force<R: Real>(law: &Hertz<R>, touch: &Touch<R>, _: &mut [R]) -> NormalForce<R> {
-        let secant = law.stiffness.secant(touch);
+        let secant = (law.stiffness.squared(touch) * touch.overlap).sqrt();
         let elastic = secant * touch.overlap;
-        let damping = law.damping * (secant / touch.inverse_mass).sqrt() * touch.approach;
+        let damping = law.damping * (secant * touch.mass).sqrt() * touch.approach;
         NormalForce {
             elastic,
             damping,
+            secant,
             stored: R::splat(0.4) * elastic * touch.overlap,
             damped: damping * touch.approach * touch.dt,
             latched: R::zero(),

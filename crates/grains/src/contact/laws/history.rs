@@ -1,10 +1,27 @@
 //! A spring along the surface that remembers its force, gives in at a limit, and never gives back more than it took.
 
 use crate::contact::law::Touch;
-use crate::contact::real::{Real, V3};
+use crate::contact::real::{Mask, Real, V3};
 
-/// Keeps divisions by a stiffness finite where nothing touches, N/m or N m.
+/// Keeps the compliance finite where nothing touches, N/m or N m.
 const TINY: f64 = 1e-30;
+
+/// Stiffness of a spring, its inverse, and its inverse when it was loaded last (0 before the first touch).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spring<R> {
+    pub stiffness: R,
+    pub compliance: R,
+    pub before: R,
+}
+
+impl<R: Real> Spring<R> {
+    /// Of `stiffness` now and compliance `before`.
+    #[inline(always)]
+    pub fn new(stiffness: R, before: R) -> Self {
+        let stiffness = stiffness.max(R::splat(TINY));
+        Self { stiffness, compliance: R::splat(1.0) / stiffness, before }
+    }
+}
 
 /// Outcome of one step of a spring, a dashpot beside it and a slider behind both.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +40,7 @@ pub(super) struct Mobilised<R> {
     pub latched: R,
 }
 
-/// Advances a spring that held `held` at stiffness `before` through `rate * dt` at stiffness `now`.
+/// Advances a spring that held `held` through `rate * dt`.
 ///
 /// `rate` belongs to the time of the force, so the spring is carried from half a step before to half a
 /// step after it, and the force is the mean of the two: second order, where the sum of whole steps would
@@ -34,20 +51,18 @@ pub(super) struct Mobilised<R> {
 #[inline(always)]
 pub(super) fn mobilise<R: Real>(
     held: V3<R>,
-    before: R,
-    now: R,
+    spring: &Spring<R>,
     rate: V3<R>,
     damping: R,
     limit: R,
     dt: R,
 ) -> Mobilised<R> {
-    let (tiny, half, one) = (R::splat(TINY), R::splat(0.5), R::splat(1.0));
-    let (before, now) = (before.max(tiny), now.max(tiny));
-    let (soft_before, soft_now) = (half / before, half / now);
-    let kept = held * (now / before).min(one);
+    let half = R::splat(0.5);
+    let (soft_before, soft_now) = (half * spring.before, half * spring.compliance);
+    let kept = held * (spring.stiffness * spring.before).min(R::splat(1.0));
     let latched = held.dot(held) * soft_before - kept.dot(kept) * soft_now;
 
-    let change = rate * (now * dt);
+    let change = rate * (spring.stiffness * dt);
     let wanted = kept - change * half - rate * damping;
     let (force, slides) = capped(wanted, limit);
     let (held, _) = capped(kept - change, limit);
@@ -62,10 +77,14 @@ pub(super) fn mobilise<R: Real>(
 /// `v` shortened to `limit`, and whether it had to be.
 #[inline(always)]
 pub(super) fn capped<R: Real>(v: V3<R>, limit: R) -> (V3<R>, R::Mask) {
-    let size = v.length();
-    let over = limit.lt(size);
+    let square = v.dot(v);
+    let over = (limit * limit).lt(square);
+    if !over.any() {
+        return (v, over);
+    }
     // Where it is over the limit the size is positive, so the quotient is finite.
-    (V3::pick(over, v * (limit / R::pick(over, size, R::splat(1.0))), v), over)
+    let size = R::pick(over, square, R::splat(1.0)).sqrt();
+    (V3::pick(over, v * (limit / size), v), over)
 }
 
 /// `held` turned with the contact plane: projected on the plane of `touch`, length kept (Walton & Braun 1986).

@@ -38,12 +38,13 @@ impl Normal for Linear {
     #[inline(always)]
     fn force<R: Real>(law: &Linear<R>, touch: &Touch<R>, _: &mut [R]) -> NormalForce<R> {
         let (k, delta, v) = (law.stiffness, touch.overlap, touch.approach);
-        let gamma = R::splat(2.0) * law.damping_ratio * (k / touch.inverse_mass).sqrt();
+        let gamma = R::splat(2.0) * law.damping_ratio * (k * touch.mass).sqrt();
         let elastic = k * delta;
         let damping = gamma * v * touch.presence();
         NormalForce {
             elastic,
             damping,
+            secant: k,
             stored: R::splat(0.5) * elastic * delta,
             damped: damping * v * touch.dt,
             latched: R::zero(),

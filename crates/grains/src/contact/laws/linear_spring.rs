@@ -1,6 +1,6 @@
 //! Tangential spring and dashpot of constant stiffness behind a slider.
 
-use super::history::{mobilise, store, turned, vector};
+use super::history::{Spring, mobilise, store, turned, vector};
 use crate::contact::law::{NormalForce, PairContext, Tangential, TangentialForce, Touch};
 use crate::contact::real::Real;
 use crate::material::damping_ratio;
@@ -15,6 +15,8 @@ use crate::spec::SpecError;
 pub struct LinearSpring<R = f64> {
     /// k_t, N/m.
     pub stiffness: R,
+    /// 1/k_t, m/N.
+    pub compliance: R,
     /// mu.
     pub friction: R,
     /// gamma_t if given, kg/s.
@@ -43,13 +45,20 @@ impl Tangential for LinearSpring {
             Some(gamma) => (gamma, 0.0),
             None => (0.0, 4.0 * zeta * zeta * stiffness * TANGENTIAL_MASS[usize::from(c.rotation)]),
         };
-        Ok(Self { stiffness, friction: c.pair.friction, damping, damping_squared })
+        Ok(Self {
+            stiffness,
+            compliance: 1.0 / stiffness,
+            friction: c.pair.friction,
+            damping,
+            damping_squared,
+        })
     }
 
     #[inline(always)]
     fn lanes<R: Real>(pick: impl Fn(fn(&Self) -> f64) -> R) -> LinearSpring<R> {
         LinearSpring {
             stiffness: pick(|c| c.stiffness),
+            compliance: pick(|c| c.compliance),
             friction: pick(|c| c.friction),
             damping: pick(|c| c.damping),
             damping_squared: pick(|c| c.damping_squared),
@@ -64,9 +73,10 @@ impl Tangential for LinearSpring {
         memory: &mut [R],
     ) -> TangentialForce<R> {
         let held = turned(vector(memory), touch);
-        let gamma = law.damping + (law.damping_squared / touch.inverse_mass).sqrt();
+        let gamma = law.damping + (law.damping_squared * touch.mass).sqrt();
         let limit = law.friction * normal.load();
-        let m = mobilise(held, law.stiffness, law.stiffness, touch.slip, gamma, limit, touch.dt);
+        let spring = Spring { stiffness: law.stiffness, compliance: law.compliance, before: law.compliance };
+        let m = mobilise(held, &spring, touch.slip, gamma, limit, touch.dt);
         store(memory, m.held);
         TangentialForce {
             force: m.force,
@@ -80,6 +90,6 @@ impl Tangential for LinearSpring {
     #[inline(always)]
     fn released<R: Real>(law: &LinearSpring<R>, memory: &[R]) -> R {
         let held = vector(memory);
-        R::splat(0.5) * held.dot(held) / law.stiffness
+        R::splat(0.5) * held.dot(held) * law.compliance
     }
 }

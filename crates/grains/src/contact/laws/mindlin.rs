@@ -1,13 +1,11 @@
 //! Tangential spring of a Hertzian contact behind a slider.
 
-use super::history::{mobilise, store, turned, vector};
+use super::history::{Spring, mobilise, store, turned, vector};
 use super::linear_spring::TANGENTIAL_MASS;
 use crate::contact::law::{NormalForce, PairContext, Tangential, TangentialForce, Touch};
 use crate::contact::real::Real;
 use crate::material::{damping_ratio, mindlin_ratio};
 use crate::spec::SpecError;
-
-use super::hertz::HertzStiffness;
 
 /// dF_t = -k_t dxi, k_t = 8 G* sqrt(r delta), |F_t| <= mu F_n (Mindlin 1949, no-slip limit).
 ///
@@ -16,19 +14,18 @@ use super::hertz::HertzStiffness;
 /// Cleary 2013). k_t = ratio * dF_n/d(delta) with ratio 4 G*/E*, or as given.
 #[derive(Clone, Copy, Debug)]
 pub struct Mindlin<R = f64> {
-    /// Stiffness of the normal spring.
-    pub normal: HertzStiffness<R>,
     /// k_t over the secant F_n/delta: 3/2 of the ratio.
     pub ratio: R,
     /// mu.
     pub friction: R,
     /// gamma_t if given, kg/s.
     pub damping: R,
-    /// (gamma_t)²/(m k_t) otherwise.
-    pub damping_squared: R,
+    /// gamma_t over sqrt(m F_n/delta) otherwise.
+    pub damping_number: R,
 }
 
-const STIFFNESS: usize = 3;
+/// Place of 1/k_t in the memory.
+const COMPLIANCE: usize = 3;
 
 impl Tangential for Mindlin {
     type Lanes<R: Real> = Mindlin<R>;
@@ -45,23 +42,21 @@ impl Tangential for Mindlin {
             }
         };
         let zeta = damping_ratio(c.pair.restitution);
-        let (damping, damping_squared) = match c.pair.tangential_damping {
+        let ratio = 1.5 * ratio;
+        let (damping, damping_number) = match c.pair.tangential_damping {
             Some(gamma) => (gamma, 0.0),
-            None => (0.0, 4.0 * zeta * zeta * TANGENTIAL_MASS[usize::from(c.rotation)]),
+            None => (0.0, 2.0 * zeta * (ratio * TANGENTIAL_MASS[usize::from(c.rotation)]).sqrt()),
         };
-        let normal = HertzStiffness::build(c)?;
-        Ok(Self { normal, ratio: 1.5 * ratio, friction: c.pair.friction, damping, damping_squared })
+        Ok(Self { ratio, friction: c.pair.friction, damping, damping_number })
     }
 
     #[inline(always)]
     fn lanes<R: Real>(pick: impl Fn(fn(&Self) -> f64) -> R) -> Mindlin<R> {
-        let normal = HertzStiffness { given: pick(|c| c.normal.given), modulus: pick(|c| c.normal.modulus) };
         Mindlin {
-            normal,
             ratio: pick(|c| c.ratio),
             friction: pick(|c| c.friction),
             damping: pick(|c| c.damping),
-            damping_squared: pick(|c| c.damping_squared),
+            damping_number: pick(|c| c.damping_number),
         }
     }
 
@@ -73,12 +68,12 @@ impl Tangential for Mindlin {
         memory: &mut [R],
     ) -> TangentialForce<R> {
         let held = turned(vector(memory), touch);
-        let stiffness = law.ratio * law.normal.secant(touch);
-        let gamma = law.damping + (law.damping_squared * stiffness / touch.inverse_mass).sqrt();
+        let spring = Spring::new(law.ratio * normal.secant, memory[COMPLIANCE]);
+        let gamma = law.damping + law.damping_number * (normal.secant * touch.mass).sqrt();
         let limit = law.friction * normal.load();
-        let m = mobilise(held, memory[STIFFNESS], stiffness, touch.slip, gamma, limit, touch.dt);
+        let m = mobilise(held, &spring, touch.slip, gamma, limit, touch.dt);
         store(memory, m.held);
-        memory[STIFFNESS] = stiffness;
+        memory[COMPLIANCE] = spring.compliance;
         TangentialForce {
             force: m.force,
             stored: m.stored,
@@ -91,7 +86,6 @@ impl Tangential for Mindlin {
     #[inline(always)]
     fn released<R: Real>(_: &Mindlin<R>, memory: &[R]) -> R {
         let held = vector(memory);
-        let any = R::zero().lt(memory[STIFFNESS]);
-        (R::splat(0.5) * held.dot(held) / R::pick(any, memory[STIFFNESS], R::splat(1.0))).keep(any)
+        R::splat(0.5) * held.dot(held) * memory[COMPLIANCE]
     }
 }

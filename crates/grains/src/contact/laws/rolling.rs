@@ -1,6 +1,6 @@
 //! Resistance against rolling.
 
-use super::history::{mobilise, store, turned, vector};
+use super::history::{Spring, mobilise, store, turned, vector};
 use crate::contact::law::{NormalForce, PairContext, Rolling, RollingCouple, Touch};
 use crate::contact::real::Real;
 use crate::spec::SpecError;
@@ -48,9 +48,9 @@ impl Rolling for ConstantTorque {
         _: &mut [R],
     ) -> RollingCouple<R> {
         let roll = touch.roll.reject(touch.normal);
-        let (speed, r) = (roll.length(), touch.radius());
+        let (speed, r) = (roll.length(), touch.radius);
         let limit = law.friction * r * normal.load();
-        let c = law.rate * touch.mass() * r * r;
+        let c = law.rate * touch.mass * r * r;
         let slides = limit.lt(c * speed);
         let coefficient = R::pick(slides, limit / speed, c);
         RollingCouple {
@@ -71,7 +71,8 @@ pub struct RollingSpring<R = f64> {
     pub friction: R,
 }
 
-const STIFFNESS: usize = 3;
+/// Place of 1/k_r in the memory.
+const COMPLIANCE: usize = 3;
 
 /// Fraction of critical damping of the rolling oscillation (Ai et al. 2011).
 const DAMPING_RATIO: f64 = 0.3;
@@ -100,17 +101,15 @@ impl Rolling for RollingSpring {
         memory: &mut [R],
     ) -> RollingCouple<R> {
         let held = turned(vector(memory), touch);
-        let r = touch.radius();
+        let r = touch.radius;
         let arm = law.friction * r;
-        let any = R::zero().lt(touch.overlap);
-        let secant = normal.elastic / R::pick(any, touch.overlap, R::splat(1.0));
-        let stiffness = R::splat(2.25) * arm * arm * secant;
-        let inertia = R::splat(INERTIA) * touch.mass() * r * r;
-        let c = R::splat(2.0 * DAMPING_RATIO) * (stiffness * inertia).sqrt();
+        let spring = Spring::new(R::splat(2.25) * arm * arm * normal.secant, memory[COMPLIANCE]);
+        let inertia = R::splat(INERTIA) * touch.mass * r * r;
+        let c = R::splat(2.0 * DAMPING_RATIO) * (spring.stiffness * inertia).sqrt();
         let roll = touch.roll.reject(touch.normal);
-        let m = mobilise(held, memory[STIFFNESS], stiffness, roll, c, arm * normal.load(), touch.dt);
+        let m = mobilise(held, &spring, roll, c, arm * normal.load(), touch.dt);
         store(memory, m.held);
-        memory[STIFFNESS] = stiffness;
+        memory[COMPLIANCE] = spring.compliance;
         RollingCouple { couple: m.force, stored: m.stored, rolled: m.slid + m.damped + m.latched }
     }
 }

@@ -2,18 +2,20 @@
 
 use crate::contact::real::Real;
 
-/// x^(1/3) for 1e-18 < x < 1e18, to rounding.
+/// x^(1/3) for 1e-6 <= x <= 1, to rounding.
 ///
-/// x^(5/16) by square roots is off by x^(1/48); each step of Halley's cubes what is left of the error.
+/// x^(-1/3) from a quadratic in s = x^(1/8) that is within 1 % of s^(1/3), over s³; each step takes the
+/// series of (1 - h)^(-1/3), h = 1 - x y³, to h³, and leaves 0.14 h⁴.
 #[inline(always)]
 pub(super) fn cube_root<R: Real>(x: R) -> R {
-    let quarter = x.sqrt().sqrt();
-    let mut y = quarter * quarter.sqrt().sqrt();
-    for _ in 0..4 {
-        let y3 = y * y * y;
-        y = y * ((y3 + x + x) / (y3 + y3 + x));
+    let c = R::splat;
+    let s = x.sqrt().sqrt().sqrt();
+    let mut y = (c(0.408) + s * (c(0.965) - s * c(0.382))) / (s * s * s);
+    for _ in 0..2 {
+        let h = c(1.0) - x * y * y * y;
+        y = y + y * h * (c(1.0 / 3.0) + h * (c(2.0 / 9.0) + h * c(14.0 / 81.0)));
     }
-    y
+    x * y * y
 }
 
 /// x^(1/5) for 1e-30 < x < 1e30, to rounding; started from x^(3/16).
@@ -37,8 +39,10 @@ mod tests {
         for e in -36..=36 {
             let y = 10f64.powf(f64::from(e) / 6.0);
             // Rounding of the power and of the last step, a few units of 1.1e-16 each.
-            let third = super::cube_root(y * y * y) / y - 1.0;
-            assert!(third.abs() < 2e-15, "y {y:e}: {third:e}");
+            if e <= 0 && e >= -12 {
+                let third = super::cube_root((y * y * y).clamp(1e-6, 1.0)) / y - 1.0;
+                assert!(third.abs() < 2e-15, "y {y:e}: {third:e}");
+            }
             let fifth = super::fifth_root(y * y * y * y * y) / y - 1.0;
             assert!(fifth.abs() < 2e-15, "y {y:e}: {fifth:e}");
         }

@@ -18,6 +18,10 @@ pub struct WaltonBraun<R = f64> {
     pub loading: R,
     /// K2, N/m.
     pub unloading: R,
+    /// 1/K2, m/N.
+    pub compliance: R,
+    /// 1 - K1/K2.
+    pub lost: R,
 }
 
 impl Normal for WaltonBraun {
@@ -33,12 +37,18 @@ impl Normal for WaltonBraun {
                 "the latching spring needs a value above 0: K2 = K1/e²",
             ));
         }
-        Ok(Self { loading, unloading: latching_unloading_stiffness(loading, c.pair.restitution) })
+        let unloading = latching_unloading_stiffness(loading, c.pair.restitution);
+        Ok(Self { loading, unloading, compliance: 1.0 / unloading, lost: 1.0 - loading / unloading })
     }
 
     #[inline(always)]
     fn lanes<R: Real>(pick: impl Fn(fn(&Self) -> f64) -> R) -> WaltonBraun<R> {
-        WaltonBraun { loading: pick(|c| c.loading), unloading: pick(|c| c.unloading) }
+        WaltonBraun {
+            loading: pick(|c| c.loading),
+            unloading: pick(|c| c.unloading),
+            compliance: pick(|c| c.compliance),
+            lost: pick(|c| c.lost),
+        }
     }
 
     #[inline(always)]
@@ -47,14 +57,16 @@ impl Normal for WaltonBraun {
         let before = memory[0];
         let largest = before.max(touch.overlap);
         memory[0] = largest;
-        let open = largest * (R::splat(1.0) - k1 / k2);
+        let open = largest * law.lost;
         let elastic = (k1 * touch.overlap).min(k2 * (touch.overlap - open)).max(R::zero());
         // Of the work K1 delta²/2 of loading, K1/K2 comes back.
-        let latched = half * k1 * (R::splat(1.0) - k1 / k2) * (largest * largest - before * before);
+        let latched = half * k1 * law.lost * (largest * largest - before * before);
         NormalForce {
             elastic,
             damping: R::zero(),
-            stored: half * elastic * elastic / k2,
+            // Asked for by rolling springs only.
+            secant: elastic / R::pick(R::zero().lt(touch.overlap), touch.overlap, R::splat(1.0)),
+            stored: half * elastic * elastic * law.compliance,
             damped: R::zero(),
             latched,
         }
@@ -80,8 +92,16 @@ const UNLOADING: usize = 5;
 pub struct WaltonBraunFriction<R = f64> {
     /// K0, N/m.
     pub stiffness: R,
+    /// 1/K0, m/N.
+    pub compliance: R,
     /// mu.
     pub friction: R,
+}
+
+impl WaltonBraunFriction {
+    fn new(stiffness: f64, friction: f64) -> Self {
+        Self { stiffness, compliance: 1.0 / stiffness, friction }
+    }
 }
 
 /// Tangential over normal stiffness where the case gives none: 2(1 - nu)/(2 - nu) at nu = 1/3 (Mindlin 1949).
@@ -97,12 +117,16 @@ impl Tangential for WaltonBraunFriction {
         let why = "this friction takes its stiffness from that of the linear or latching spring, in N/m";
         let k1 = c.pair.stiffness.ok_or_else(|| SpecError::missing("stiffness", why))?;
         let ratio = c.pair.tangential_ratio.unwrap_or(STIFFNESS_RATIO);
-        Ok(Self { stiffness: ratio * k1, friction: c.pair.friction })
+        Ok(Self::new(ratio * k1, c.pair.friction))
     }
 
     #[inline(always)]
     fn lanes<R: Real>(pick: impl Fn(fn(&Self) -> f64) -> R) -> WaltonBraunFriction<R> {
-        WaltonBraunFriction { stiffness: pick(|c| c.stiffness), friction: pick(|c| c.friction) }
+        WaltonBraunFriction {
+            stiffness: pick(|c| c.stiffness),
+            compliance: pick(|c| c.compliance),
+            friction: pick(|c| c.friction),
+        }
     }
 
     #[inline(always)]
@@ -136,11 +160,8 @@ impl Tangential for WaltonBraunFriction {
         let turns = (unloads & !was_unloading) | (!unloads & was_unloading);
         let turning = R::pick(turns, magnitude, turning).min(limit).max(-limit);
 
-        let softness = R::pick(
-            unloads,
-            fraction(turning - magnitude, limit + turning),
-            fraction(magnitude - turning, limit - turning),
-        );
+        let sign = R::pick(unloads, -one, one);
+        let softness = fraction(sign * (magnitude - turning), limit - sign * turning);
         let k = k0 * cube_root((one - softness).max(R::splat(SOFTEST)));
 
         // Carried from half a step before the force to half a step after it, see `mobilise`.
@@ -157,7 +178,7 @@ impl Tangential for WaltonBraunFriction {
 
         // A spring that softens returns on unloading some of what it seemed to lose on loading: `latched`
         // is negative then, and positive over a closed cycle at steady load.
-        let stored = |t: V3<R>| half * t.dot(t) / k0;
+        let stored = |t: V3<R>| half * t.dot(t) * law.compliance;
         let lost = stored(old) - stored(new) - force.dot(ds);
         TangentialForce {
             force,
@@ -171,7 +192,7 @@ impl Tangential for WaltonBraunFriction {
     #[inline(always)]
     fn released<R: Real>(law: &WaltonBraunFriction<R>, memory: &[R]) -> R {
         let held = vector(memory);
-        R::splat(0.5) * held.dot(held) / law.stiffness
+        R::splat(0.5) * held.dot(held) * law.compliance
     }
 }
 
@@ -206,7 +227,7 @@ mod tests {
 
         /// Slips by `ds` (positive: adds to a force along +x); the force held after it.
         fn slip(&mut self, ds: f64) -> f64 {
-            let law = WaltonBraunFriction { stiffness: K0, friction: MU };
+            let law = WaltonBraunFriction::new(K0, MU);
             let o = 0.0;
             let touch = Touch {
                 overlap: 1e-5,
@@ -214,11 +235,12 @@ mod tests {
                 approach: o,
                 slip: V3::new(-ds / STEP, 0.0, 0.0),
                 roll: V3::zero(),
-                inverse_mass: 1.0,
-                inverse_radius: 1.0,
+                mass: 1.0,
+                radius: 1.0,
                 dt: STEP,
             };
-            let n = NormalForce { elastic: self.load, damping: o, stored: o, damped: o, latched: o };
+            let n =
+                NormalForce { elastic: self.load, damping: o, secant: o, stored: o, damped: o, latched: o };
             let _ = WaltonBraunFriction::force(&law, &touch, &n, &mut self.memory);
             self.s += ds;
             self.memory[0]
