@@ -29,12 +29,16 @@ pub struct Case {
     pub must: [f64; 2],
 }
 
+/// Density of the grains of the dense beds, kg/m³.
+const DENSITY: f64 = 2500.0;
+
 /// The table of beds: letter, start state, tiles, warm-up, steps, least ratios.
 const CASES: &[(char, &str, [usize; 2], u64, u64, [f64; 2])] = &[
     ('A', "A.txt.gz", [1, 1], 20_000, 50_000, [1.1, 2.5]),
     ('B', "bed20k.txt.gz", [1, 1], 500, 1000, [2.0, 2.5]),
     ('C', "bed20k.txt.gz", [5, 2], 100, 100, [1.4, 3.5]),
     ('D', "bed20k.txt.gz", [1, 1], 500, 1000, [1.8, 2.5]),
+    ('I', "bed20k.txt.gz", [5, 1], 100, 100, [2.0, 2.5]),
 ];
 
 impl Case {
@@ -43,10 +47,10 @@ impl Case {
         let &(_, file, tiles, warm, steps, must) = CASES
             .iter()
             .find(|c| c.0 == name)
-            .ok_or_else(|| format!("there is no case {name}; there are A, B, C and D"))?;
+            .ok_or_else(|| format!("there is no case {name}; there are A, B, C, D and I"))?;
         let path = folder.join(file);
         let (mut grains, size) = read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-        let density = if name == 'A' { 1200.0 } else { 2500.0 };
+        let density = if name == 'A' { 1200.0 } else { DENSITY };
         for k in 0..grains.len() {
             let r = grains.radius[k];
             grains.mass[k] = density * 4.0 / 3.0 * PI * r * r * r;
@@ -55,6 +59,29 @@ impl Case {
         let (grains, size) = tile(&grains, size, tiles);
         let spec = if name == 'A' { dilute(size) } else { dense(name, size) };
         Ok(Self { name, spec, grains, warm, steps, must })
+    }
+}
+
+impl Case {
+    /// The same bed with a sphere ten times as large in its middle, in the place of the grains there.
+    pub fn with_intruder(&self) -> Self {
+        let mean = self.grains.radius.iter().sum::<f64>() / self.grains.len() as f64;
+        let radius = 10.0 * mean;
+        let size = self.spec.cell.size;
+        let centre = vec3(0.5 * size.x, 0.5 * size.y, 1.2 * radius);
+        let mut grains = Grains::default();
+        for k in 0..self.grains.len() {
+            let r = self.grains.radius[k];
+            if (self.grains.position[k] - centre).length() > radius + r {
+                grains.push(0, 0, r, self.grains.mass[k], self.grains.inertia[k], self.grains.position[k]);
+                let to = grains.len() - 1;
+                grains.velocity[to] = self.grains.velocity[k];
+                grains.angular_velocity[to] = self.grains.angular_velocity[k];
+            }
+        }
+        let mass = DENSITY * 4.0 / 3.0 * PI * radius.powi(3);
+        grains.push(0, 0, radius, mass, 0.4 * mass * radius * radius, centre);
+        Self { name: self.name, spec: self.spec.clone(), grains, ..*self }
     }
 }
 
@@ -76,7 +103,7 @@ fn dense(name: char, size: [f64; 2]) -> DemSpec {
         let pair = PairSpec { restitution: 0.8, friction: 0.5, ..PairSpec::default() };
         (NormalLaw::Hertz, TangentialLaw::Mindlin, pair)
     };
-    spec(contact, name != 'D', 2500.0, [size[0], size[1], 0.5], 2e-6, (0.003_313_202_7, 15.0))
+    spec(contact, name != 'D', DENSITY, [size[0], size[1], 0.5], 2e-6, (0.003_313_202_7, 15.0))
 }
 
 fn spec(

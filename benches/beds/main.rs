@@ -29,7 +29,7 @@ struct Args {
     /// Rounds; the median of their ratios counts.
     #[arg(long, default_value_t = 3)]
     rounds: usize,
-    /// The sweeps to run: plain, portable, fast.
+    /// The sweeps to run: plain, fast.
     #[arg(long, value_delimiter = ',', default_value = "plain,fast")]
     sweeps: Vec<String>,
     /// Command that runs a peer: START CASE THREADS WARM STEPS are added, and its last line is its rate in
@@ -57,7 +57,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         let case = Case::read(name, &args.start)?;
         for &threads in args.threads.iter().filter(|&&t| name != 'A' || t == 1) {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-            pool.install(|| bench(&args, &case, threads)).map_err(|e| e.to_string())?;
+            if name == 'I' {
+                pool.install(|| intruder(&args, &case, threads))?;
+            } else {
+                pool.install(|| bench(&args, &case, threads))?;
+            }
         }
     }
     Ok(())
@@ -105,12 +109,29 @@ fn bench(args: &Args, case: &Case, threads: usize) -> Result<(), String> {
     Ok(())
 }
 
+/// What a single large sphere costs: the same bed with and without it in turn.
+fn intruder(args: &Args, case: &Case, threads: usize) -> Result<(), String> {
+    let with = case.with_intruder();
+    let mut ratios = vec![];
+    for _ in 0..args.rounds {
+        // Per step, whatever the number of grains.
+        let time = |case: &Case| ours(case, "fast").map(|(lap, _)| lap.seconds(threads));
+        ratios.push(time(&with)? / time(case)?);
+    }
+    let extra = 100.0 * (median(ratios) - 1.0);
+    println!(
+        "{} {threads} thread(s):  a sphere of ten times the size among {} costs {extra:.1} % (must 10)",
+        case.name,
+        with.grains.len() - 1
+    );
+    Ok(())
+}
+
 /// Runs the bed with one of our sweeps.
 fn ours(case: &Case, sweep: &str) -> Result<(Lap, DemState), String> {
     let mut spec = case.spec.clone();
     spec.search.sweep = match sweep {
         "plain" => Sweep::Plain,
-        "portable" => Sweep::Portable,
         "fast" => Sweep::Fast,
         other => return Err(format!("there is no sweep `{other}`")),
     };

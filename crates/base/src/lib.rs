@@ -12,6 +12,7 @@ pub mod keys;
 pub mod menu;
 pub mod motion;
 pub mod parallel;
+pub mod portable;
 pub mod random;
 pub mod record;
 pub mod schedule;

@@ -12,7 +12,7 @@ use crate::contact::{ContactSweep, dispatch};
 use crate::neighbors::grid::Grid;
 use crate::neighbors::handover::Handover;
 use crate::neighbors::order::Order;
-use crate::packed::{Row, Spin};
+use crate::packed::{Row, Shifts, Spin};
 use crate::spec::{DemSpec, SpecError};
 use crate::wall::Walls;
 use brazilnut_base::Vec3;
@@ -27,6 +27,7 @@ pub struct Dem {
     walls: Walls,
     free: Vec3,
     turns: Vec3,
+    shifts: Shifts,
     scratch: Scratch,
 }
 
@@ -56,6 +57,7 @@ impl Dem {
             walls: Walls::new(spec.cell, &spec.walls),
             free,
             turns,
+            shifts: Shifts::new(spec.cell.size),
             scratch: Scratch::default(),
             spec,
         })

@@ -1,5 +1,7 @@
 //! How the engine keeps its grains: rows of one cache line in sorted order.
 
+use crate::contact::V3;
+use crate::contact::real::Real;
 use serde::{Deserialize, Serialize};
 
 /// Position (m), radius (m), velocity at the time of the position (m/s), 1/mass (1/kg).
@@ -101,6 +103,30 @@ pub fn image_code(s: [i32; 3]) -> u32 {
 pub fn image_of(code: u32) -> [i32; 3] {
     let c = (code as i32 + 13) % 27;
     [c / 9 - 1, c / 3 % 3 - 1, c % 3 - 1]
+}
+
+/// Shift to each periodic image, by its code, m.
+#[derive(Clone, Debug)]
+pub struct Shifts([[f64; 3]; 1 << (u32::BITS - INDEX_BITS)]);
+
+impl Shifts {
+    /// Those of a cell of this size.
+    #[must_use]
+    pub fn new(size: brazilnut_base::Vec3) -> Self {
+        let mut all = Self([[0.0; 3]; 32]);
+        for code in 0..27 {
+            let s = image_of(code);
+            all.0[code as usize] = std::array::from_fn(|a| f64::from(s[a]) * size[a]);
+        }
+        all
+    }
+
+    /// Those of the second bodies of some list entries.
+    #[inline(always)]
+    pub fn of<R: Real>(&self, coded: &[u32]) -> V3<R> {
+        let shift = |axis: usize| R::from_lanes(|k| self.0[(coded[k] >> INDEX_BITS) as usize][axis]);
+        V3::new(shift(0), shift(1), shift(2))
+    }
 }
 
 #[cfg(test)]

@@ -197,9 +197,7 @@ impl Default for Search {
 pub enum Sweep {
     /// Eight contacts at a time with the widest instructions of this machine.
     Fast,
-    /// Eight contacts at a time with what every machine has.
-    Portable,
-    /// One contact at a time: the reference.
+    /// One contact at a time with what every machine has: the reference.
     Plain,
 }
 

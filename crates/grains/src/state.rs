@@ -55,6 +55,8 @@ pub struct DemState {
     pub(crate) extent: [Vec3; 2],
     /// Work done on lists so far.
     pub(crate) counts: Counts,
+    /// Steps taken when the outer lists were made.
+    pub(crate) built: u64,
 }
 
 /// What can be said about displacements since a list was made.

@@ -54,7 +54,7 @@ fn grains() -> Grains {
 #[test]
 fn one_lane_and_eight_give_the_same_bits() {
     all(|spec, name| {
-        let mut results = [Sweep::Plain, Sweep::Portable, Sweep::Fast].map(|sweep| {
+        let results = [Sweep::Plain, Sweep::Fast].map(|sweep| {
             let mut spec = spec.clone();
             spec.search.sweep = sweep;
             let mut dem = Dem::new(spec).unwrap();
@@ -62,10 +62,8 @@ fn one_lane_and_eight_give_the_same_bits() {
             run(&mut dem, &mut state, 0, 300, &Gravity(vec3(0.0, 0.0, -9.81)));
             (bits(&export(&dem, &state)), dem.ledger(&state).lost().to_bits(), state.contact_count())
         });
-        results.sort();
         assert!(results[0].2 > 5, "{name}: too few contacts to tell");
         assert_eq!(results[0], results[1], "{name}");
-        assert_eq!(results[1], results[2], "{name}");
     });
 }
 

@@ -89,7 +89,7 @@ fn every_sweep_gives_the_same_bits() {
     let (mut spec, grains) = bed();
     for integrator in Integrator::ALL {
         let mut all = vec![];
-        for sweep in [Sweep::Plain, Sweep::Portable, Sweep::Fast] {
+        for sweep in [Sweep::Plain, Sweep::Fast] {
             spec.search.sweep = sweep;
             spec.integrator = *integrator;
             let mut dem = Dem::new(spec.clone()).unwrap();
@@ -97,7 +97,7 @@ fn every_sweep_gives_the_same_bits() {
             run(&mut dem, &mut state, 0, 100, &FIELD);
             all.push(packed(&state));
         }
-        assert!(all[0] == all[1] && all[0] == all[2], "{integrator:?}");
+        assert!(all[0] == all[1], "{integrator:?}");
     }
 }
 

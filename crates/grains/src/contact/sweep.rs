@@ -4,7 +4,7 @@ use super::law::{MAX_SLOTS, Touch};
 use super::pair::{Law, energy};
 use super::real::{Mask, Real, V3};
 use crate::lanes::{Adds, Wide};
-use crate::packed::{Couple, Force, INDEX, INDEX_BITS, Row, Spin, image_of};
+use crate::packed::{Couple, Force, INDEX, INDEX_BITS, Row, Shifts, Spin};
 use crate::state::BATCH;
 
 /// One list of pairs to evaluate.
@@ -33,8 +33,8 @@ pub struct PairJob<'a> {
     pub base: (usize, usize),
     /// Who gets the force.
     pub adds: Adds,
-    /// Edge lengths of the cell, m.
-    pub size: [f64; 3],
+    /// Shifts to periodic images.
+    pub shifts: &'a Shifts,
     /// Length of the step, s.
     pub dt: f64,
 }
@@ -115,6 +115,9 @@ pub(super) fn forget<L: Law, R: Wide>(
     tally(&mut counted.energy[energy::LATCHED], p, L::released(law, old).keep(!touching));
 }
 
+/// Pairs between asking for a row and reading it: a memory access, in time that batches take.
+const AHEAD: usize = 32;
+
 /// Evaluates every pair of `job` and adds its forces.
 #[inline(always)]
 pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<'_>, counted: &mut Tally) {
@@ -137,10 +140,17 @@ pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<
         }
         let j = &indices[..R::WIDTH];
 
+        if let Some(coming) = job.j.get(p + AHEAD..q + AHEAD) {
+            let mut later = [0u32; BATCH];
+            for k in 0..R::WIDTH {
+                later[k] = coming[k] & INDEX;
+            }
+            R::announce::<SPINS>(job.rows, job.spins, &later[..R::WIDTH]);
+        }
         let row = R::relative(job.rows, i, j);
         let mut d = V3::new(row[0], row[1], row[2]);
         if images >> INDEX_BITS != 0 {
-            d = d - across::<R>(coded, job.size);
+            d = d - job.shifts.of(coded);
         }
         let reach = row[3];
         let square = d.dot(d);
@@ -224,14 +234,6 @@ pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<
         }
         p = q;
     }
-}
-
-/// Shift of the second bodies to the image that is meant, m.
-#[inline(always)]
-fn across<R: Real>(coded: &[u32], size: [f64; 3]) -> V3<R> {
-    let shift =
-        |axis: usize| R::from_lanes(|k| f64::from(image_of(coded[k] >> INDEX_BITS)[axis]) * size[axis]);
-    V3::new(shift(0), shift(1), shift(2))
 }
 
 /// The inverse of each of `x` at the price of one division.

@@ -5,11 +5,12 @@ use crate::contact::ContactSweep;
 use crate::contact::sweep::PairJob;
 use crate::contact::wall_sweep::WallJob;
 use crate::field::Field;
-use crate::lanes::Adds;
+use crate::lanes::{Adds, Job, Level, Wide};
 use crate::motion::{self, Movers, Pace, Scheme};
-use crate::packed::{Half, Rest, Row, Spin, Tag};
+use crate::packed::{Half, Rest, Row, Shifts, Spin, Tag};
 use crate::state::{DemState, Lists, Pairs};
 use crate::wall::Walls;
+use std::marker::PhantomData;
 
 /// What all blocks share in a step.
 pub struct Block<'a, F> {
@@ -25,8 +26,10 @@ pub struct Block<'a, F> {
     pub law: &'a dyn ContactSweep,
     /// The walls at the start of the step.
     pub walls: &'a Walls,
-    /// Edge lengths of the cell, m.
-    pub size: [f64; 3],
+    /// Shifts to periodic images.
+    pub shifts: &'a Shifts,
+    /// Instructions for the motion.
+    pub level: Level,
     /// The step.
     pub pace: &'a Pace,
     /// What acts from outside.
@@ -163,7 +166,7 @@ impl<F: Field> Block<'_, F> {
                 couples: &mut work.couples,
                 base,
                 adds,
-                size: self.size,
+                shifts: self.shifts,
                 dt: self.pace.tick.dt,
             },
             counted,
@@ -184,7 +187,26 @@ impl<F: Field> Block<'_, F> {
             forces: &work.forces,
             couples: &work.couples,
         };
-        work.passed = motion::advance::<S, F>(&mut movers, self.pace, self.field);
+        let motion =
+            Motion::<S, F> { movers: &mut movers, pace: self.pace, field: self.field, scheme: PhantomData };
+        work.passed = self.level.run(motion);
+    }
+}
+
+/// The motion of one block, for whatever instructions the machine has: the formulae are four lanes wide already.
+struct Motion<'a, 'm, S, F> {
+    movers: &'a mut Movers<'m>,
+    pace: &'a Pace,
+    field: &'a F,
+    scheme: PhantomData<S>,
+}
+
+impl<S: Scheme, F: Field> Job for Motion<'_, '_, S, F> {
+    type Output = motion::Passed;
+
+    #[inline(always)]
+    fn run<R: Wide>(self) -> motion::Passed {
+        motion::advance::<S, F>(self.movers, self.pace, self.field)
     }
 }
 

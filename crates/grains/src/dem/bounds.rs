@@ -12,6 +12,12 @@ use rayon::prelude::*;
 
 /// A skin is used up a little early, so that rounding in the sums of displacements cannot matter.
 const MARGIN: f64 = 1.0 - 1e-9;
+/// Steps that an inner list should last: pruning costs less than a tenth of the steps between.
+const INNER_LASTS: f64 = 10.0;
+/// Least inner skin over the largest diameter: a smaller one saves no pairs in a bed at rest.
+const LEAST_INNER: f64 = 0.003;
+/// Greatest inner skin over the outer one.
+const MOST_INNER: f64 = 0.4;
 
 impl Dem {
     /// Makes the lists anew if any body may have moved further than a skin since.
@@ -19,15 +25,29 @@ impl Dem {
         let d = &state.drift;
         let [outer, inner] = &state.wall_marks;
         let skins = state.skins;
-        if exceeds(d.low, d.high, outer, &self.walls, skins.outer) {
+        if approach(d.low, d.high, outer, &self.walls) >= skins.outer * MARGIN {
             self.rebuild(state);
-        } else if exceeds(d.inner_low, d.inner_high, inner, &self.walls, skins.inner) {
+        } else if approach(d.inner_low, d.inner_high, inner, &self.walls) >= skins.inner * MARGIN {
             self.prune(state, false);
         }
     }
 
+    /// The inner skin that will last some steps if grains go on as since the last outer list.
+    fn tune(&self, state: &mut DemState) {
+        let steps = state.counts.steps - state.built;
+        state.built = state.counts.steps;
+        if self.spec.search.inner_skin.is_some() || steps == 0 {
+            return;
+        }
+        let moved = approach(state.drift.low, state.drift.high, &state.wall_marks[0], &self.walls);
+        let least = LEAST_INNER * 2.0 * state.radii[1];
+        let most = MOST_INNER * state.skins.outer;
+        state.skins.inner = (INNER_LASTS * moved / steps as f64).max(least).min(most);
+    }
+
     /// Outer lists from the present positions; sorts and wraps the grains.
     pub(super) fn rebuild(&mut self, state: &mut DemState) {
+        self.tune(state);
         self.collect(state);
         wrap(state, &self.spec.cell);
         let all_pairs = state.small < self.spec.search.all_pairs_below;
@@ -69,7 +89,7 @@ impl Dem {
         self.scratch.fit_work(&state.blocks);
         let Scratch { work, handover, .. } = &mut self.scratch;
         let prune = Prune {
-            cell: &self.spec.cell,
+            shifts: &self.shifts,
             rows: &state.rows,
             tags: &state.tags,
             rest: &state.rest,
@@ -143,16 +163,12 @@ impl Job for Inner<'_> {
     }
 }
 
-/// Whether two grains, or a grain and a wall, may have come nearer by more than `skin` (m), if every
-/// grain's displacement lies between `low` and `high` and the walls were at `marks`.
-fn exceeds(low: Vec3, high: Vec3, marks: &[Vec3], walls: &Walls, skin: f64) -> bool {
-    let skin = skin * MARGIN;
-    if (high - low).length() >= skin {
-        return true;
-    }
-    marks.iter().enumerate().any(|(k, &mark)| {
+/// By how much two grains, or a grain and a wall, may have come nearer, m, if every grain's displacement
+/// lies between `low` and `high` and the walls were at `marks`.
+fn approach(low: Vec3, high: Vec3, marks: &[Vec3], walls: &Walls) -> f64 {
+    marks.iter().enumerate().fold((high - low).length(), |most, (k, &mark)| {
         let wall = walls.displacement(k) - mark;
-        (high - wall).abs().max((low - wall).abs()).length() >= skin
+        most.max((high - wall).abs().max((low - wall).abs()).length())
     })
 }
 

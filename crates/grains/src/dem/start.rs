@@ -14,7 +14,7 @@ use brazilnut_base::{Quat, Vec3, vec3};
 const MOST_MATERIALS: usize = 16;
 /// Outer skin over mean diameter: a rebuild every few hundred steps of a shaken bed.
 const OUTER_SKIN: f64 = 0.15;
-/// Inner skin over mean diameter.
+/// First inner skin over mean diameter, before anything has moved.
 const INNER_SKIN: f64 = 0.006;
 /// At most this many grains are treated as big bodies.
 const MOST_BIG: usize = 64;
@@ -85,6 +85,7 @@ impl Dem {
             collisions: Collisions::default(),
             extent: extent(&grains.position),
             counts: Counts::default(),
+            built: 0,
         };
         for k in order {
             let (r, m, i) = (grains.radius[k], grains.mass[k], grains.inertia[k]);

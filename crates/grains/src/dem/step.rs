@@ -53,7 +53,8 @@ impl Dem {
             small: state.small,
             law: &*self.law,
             walls: &self.walls,
-            size: self.spec.cell.size.to_array(),
+            shifts: &self.shifts,
+            level: self.spec.search.sweep.level(),
             pace,
             field,
         };

@@ -8,40 +8,39 @@
 // processor, which is what makes the calls sound.
 
 use super::Wide;
+use super::x86::{lanes_of_a_register, prefetch};
 use crate::contact::real::{Mask, Real};
 use crate::packed::{Force, Row, Spin};
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// Eight numbers.
-#[derive(Clone, Copy, Debug)]
-pub struct Avx512(__m512d);
+lanes_of_a_register! {
+    /// Eight numbers.
+    Avx512 = __m512d of 8,
+    mask Mask512,
+    add _mm512_add_pd, sub _mm512_sub_pd, mul _mm512_mul_pd, div _mm512_div_pd,
+    min _mm512_min_pd, max _mm512_max_pd, sqrt _mm512_sqrt_pd,
+    xor _mm512_xor_pd, andnot _mm512_andnot_pd, set1 _mm512_set1_pd, loadu _mm512_loadu_pd, storeu _mm512_storeu_pd
+}
 
 /// Eight truth values.
 #[derive(Clone, Copy, Debug)]
 pub struct Mask512(__mmask8);
 
-macro_rules! lanewise {
-    ($trait:ident, $name:ident, $instruction:ident) => {
-        impl $trait for Avx512 {
-            type Output = Self;
-            #[inline(always)]
-            fn $name(self, o: Self) -> Self {
-                Self(unsafe { $instruction(self.0, o.0) })
-            }
-        }
-    };
-}
-lanewise!(Add, add, _mm512_add_pd);
-lanewise!(Sub, sub, _mm512_sub_pd);
-lanewise!(Mul, mul, _mm512_mul_pd);
-lanewise!(Div, div, _mm512_div_pd);
-
-impl Neg for Avx512 {
-    type Output = Self;
+impl Mask512 {
     #[inline(always)]
-    fn neg(self) -> Self {
-        Self(unsafe { _mm512_xor_pd(self.0, _mm512_set1_pd(-0.0)) })
+    fn less(a: Avx512, b: Avx512) -> Self {
+        Self(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a.0, b.0) })
+    }
+
+    #[inline(always)]
+    fn at_most(a: Avx512, b: Avx512) -> Self {
+        Self(unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a.0, b.0) })
+    }
+
+    #[inline(always)]
+    fn pick(self, yes: Avx512, no: Avx512) -> Avx512 {
+        Avx512(unsafe { _mm512_mask_blend_pd(self.0, no.0, yes.0) })
     }
 }
 
@@ -77,57 +76,6 @@ impl Mask for Mask512 {
     #[inline(always)]
     fn bits(self) -> u8 {
         self.0
-    }
-}
-
-impl Real for Avx512 {
-    type Mask = Mask512;
-    const WIDTH: usize = 8;
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        Self(unsafe { _mm512_set1_pd(x) })
-    }
-    #[inline(always)]
-    fn from_lanes(mut f: impl FnMut(usize) -> f64) -> Self {
-        let mut a = [0.0; 8];
-        for (k, a) in a.iter_mut().enumerate() {
-            *a = f(k);
-        }
-        Self::load(&a)
-    }
-    #[inline(always)]
-    fn lane(self, k: usize) -> f64 {
-        let mut a = [0.0; 8];
-        self.store(&mut a);
-        a[k]
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(unsafe { _mm512_sqrt_pd(self.0) })
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(unsafe { _mm512_abs_pd(self.0) })
-    }
-    #[inline(always)]
-    fn min(self, o: Self) -> Self {
-        Self(unsafe { _mm512_min_pd(self.0, o.0) })
-    }
-    #[inline(always)]
-    fn max(self, o: Self) -> Self {
-        Self(unsafe { _mm512_max_pd(self.0, o.0) })
-    }
-    #[inline(always)]
-    fn lt(self, o: Self) -> Mask512 {
-        Mask512(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, o.0) })
-    }
-    #[inline(always)]
-    fn le(self, o: Self) -> Mask512 {
-        Mask512(unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, o.0) })
-    }
-    #[inline(always)]
-    fn pick(mask: Mask512, yes: Self, no: Self) -> Self {
-        Self(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
     }
 }
 
@@ -187,14 +135,20 @@ fn spin_rows(spins: &[Spin], i: &[u32], j: &[u32], a: usize, b: usize) -> __m512
 impl Wide for Avx512 {
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
-        let from = &from[..8];
-        Self(unsafe { _mm512_loadu_pd(from.as_ptr()) })
+        Self::from_slice(from)
     }
 
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
-        let to = &mut to[..8];
-        unsafe { _mm512_storeu_pd(to.as_mut_ptr(), self.0) }
+        self.to_slice(to);
+    }
+
+    #[inline(always)]
+    fn announce<const SPINS: bool>(rows: &[Row], spins: &[Spin], j: &[u32]) {
+        prefetch(rows, j);
+        if SPINS {
+            prefetch(spins, j);
+        }
     }
 
     #[inline(always)]
@@ -209,10 +163,8 @@ impl Wide for Avx512 {
                 _mm512_fmadd_pd(_mm512_loadu_pd(b.as_ptr()), sign, _mm512_loadu_pd(a.as_ptr()))
             };
         }
-        {
-            let [a, b, c, d, e, f, g, h] = transpose(r);
-            [Self(a), Self(b), Self(c), Self(d), Self(e), Self(f), Self(g), Self(h)]
-        }
+        let [a, b, c, d, e, f, g, h] = transpose(r);
+        [Self(a), Self(b), Self(c), Self(d), Self(e), Self(f), Self(g), Self(h)]
     }
 
     #[inline(always)]

@@ -5,16 +5,16 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod level;
-mod portable;
 #[cfg(test)]
 mod suite;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
 #[cfg(target_arch = "x86_64")]
 pub use avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 pub use avx512::Avx512;
 pub use level::{Job, Level};
-pub use portable::Lanes8;
 
 use crate::contact::real::Real;
 use crate::packed::{Couple, Force, Row, Spin};
@@ -46,6 +46,10 @@ pub trait Wide: Real {
 
     /// Writes the lanes to the first `WIDTH` places.
     fn store(self, to: &mut [f64]);
+
+    /// Says that the rows and, if `SPINS`, the spins of `j` are read soon.
+    #[inline(always)]
+    fn announce<const SPINS: bool>(_rows: &[Row], _spins: &[Spin], _j: &[u32]) {}
 
     /// Columns of `rows[i] - rows[j]`, except columns 3 and 7, which are sums.
     #[inline(always)]

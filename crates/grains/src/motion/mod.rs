@@ -119,6 +119,7 @@ impl Sums {
 }
 
 /// Moves every grain of the block by one step.
+#[inline(always)]
 pub fn advance<S: Scheme, F: Field>(m: &mut Movers<'_>, pace: &Pace, field: &F) -> Passed {
     let mut sums = Sums::nothing();
     let (free, turns) = (Quad::from(pace.free), Quad::from(pace.turns));

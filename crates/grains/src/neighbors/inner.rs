@@ -4,9 +4,8 @@ use super::handover::Handover;
 use crate::contact::Mask;
 use crate::contact::V3;
 use crate::lanes::Wide;
-use crate::packed::{DUMMIES, INDEX, INDEX_BITS, Row, Tag, image_of};
+use crate::packed::{DUMMIES, INDEX, INDEX_BITS, Row, Shifts, Tag, image_of};
 use crate::state::{BATCH, Pairs, has_touched, memory_place, note_touched};
-use brazilnut_base::Cell;
 
 /// Where the memory of a pair comes from.
 #[derive(Clone, Copy)]
@@ -20,8 +19,8 @@ pub enum Memory<'a> {
 /// What pruning needs to see.
 #[derive(Clone, Copy)]
 pub struct Prune<'a> {
-    /// The cell.
-    pub cell: &'a Cell,
+    /// Shifts to periodic images.
+    pub shifts: &'a Shifts,
     /// All rows.
     pub rows: &'a [Row],
     /// Who they are.
@@ -95,7 +94,7 @@ impl Prune<'_> {
             let row = R::relative(self.rows, i, &indices[..R::WIDTH]);
             let mut d = V3::new(row[0], row[1], row[2]);
             if images >> INDEX_BITS != 0 {
-                d = d - self.across::<R>(coded);
+                d = d - self.shifts.of(coded);
             }
             let reach = row[3] + skin;
             let mut near = d.dot(d).lt(reach * reach).bits();
@@ -115,13 +114,6 @@ impl Prune<'_> {
         }
         self.classify(pairs);
         self.carry(pairs, spare, old);
-    }
-
-    fn across<R: Wide>(&self, coded: &[u32]) -> V3<R> {
-        let shift = |axis: usize| {
-            R::from_lanes(|k| f64::from(image_of(coded[k] >> INDEX_BITS)[axis]) * self.cell.size[axis])
-        };
-        V3::new(shift(0), shift(1), shift(2))
     }
 
     fn classify(&self, pairs: &mut Pairs) {
