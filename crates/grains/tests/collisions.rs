@@ -57,7 +57,7 @@ fn a_cradle_of_five_hands_on_four_collisions() {
     grains.velocity[0].x = v;
     let mut s = spec(0.1, Side::Walls, dt, pair(k, 1.0));
     let steps = (8.0 * pitch / v / dt) as u64;
-    for sweep in [Sweep::Plain, Sweep::Portable, Sweep::Fast] {
+    for sweep in [Sweep::Plain, Sweep::Fast] {
         s.search.sweep = sweep;
         assert_eq!(counted(&s, &grains, steps), Collisions { grains: 4, walls: 0 });
     }
