@@ -4,9 +4,10 @@ use crate::case::Case;
 use crate::clock::clock;
 use crate::contact::{self, Body};
 use crate::issue::Issues;
-use crate::{check, parts};
+use crate::{check, coupling, parts};
 use brazilnut_base::values::Values;
 use brazilnut_base::{Cell, Side, Vec3};
+use brazilnut_coupling::sheet::Sheet;
 use brazilnut_grains::contact::{NormalLaw, RollingLaw, TangentialLaw};
 use brazilnut_grains::packing::{self, Filling, Placement, Region, Shape, Sizes};
 use brazilnut_grains::{
@@ -55,6 +56,8 @@ pub struct Facts {
     pub flow_speed: f64,
     /// Density (kg/m³) and viscosity (Pa s) of the fluid.
     pub fluid: Option<(f64, f64)>,
+    /// What the numbers of the coupling mean.
+    pub coupling: Sheet,
 }
 
 /// Assembles the plan of a case that moves grains or a flow.
@@ -72,15 +75,18 @@ pub fn build(case: &Case) -> Result<Built, Issues> {
     let Some(contact) = contact::read(v, &materials, &mut issues) else { return Err(issues.sorted()) };
     let start = place(case, &cell, &materials, &mut issues);
     let Some(start) = start else { return Err(issues.sorted()) };
-    let facts = facts(v, &cell, &materials, &contact, &start, &mut issues);
     let walls = walls(v, &cell, &materials);
     let species = species(v, &start);
     let medium = medium(v, &cell, &species, &mut issues);
+    let mut facts = facts(v, &cell, &materials, &contact, &start, medium.as_ref(), &mut issues);
     let flow = match &medium {
         Some(Medium::Coupled(_, f) | Medium::Fluid(f)) => Some(&**f),
         _ => None,
     };
     let Some(clock) = clock(v, &facts, flow, &mut issues) else { return Err(issues.sorted()) };
+    if let Some(medium) = &medium {
+        facts.coupling = coupling::sheet(v, medium, &materials, &species, &start, &clock, &mut issues);
+    }
     let dem = DemSpec {
         cell,
         materials,
@@ -368,6 +374,7 @@ fn facts(
     materials: &[Material],
     contact: &ContactSpec,
     grains: &Grains,
+    medium: Option<&Medium>,
     issues: &mut Issues,
 ) -> Facts {
     let kinds = v.tables("grains").count();
@@ -376,7 +383,7 @@ fn facts(
         let s = &mut smallest[usize::from(grains.species[k])];
         if s.is_none_or(|b| grains.radius[k] < b.radius) {
             *s = Some(Body {
-                mass: grains.mass[k],
+                mass: coupling::contact_mass(medium, grains, k),
                 radius: grains.radius[k],
                 material: usize::from(grains.material[k]),
             });

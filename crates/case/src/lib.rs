@@ -10,6 +10,7 @@ pub mod case;
 pub mod check;
 mod clock;
 pub mod contact;
+mod coupling;
 pub mod describe;
 pub mod fluid;
 pub mod issue;

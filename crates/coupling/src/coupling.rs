@@ -10,8 +10,10 @@ use crate::spec::{CouplingSpec, Method, Resolved};
 use crate::state::{CouplingState, Exchange};
 use crate::still::Still;
 use brazilnut_base::{Cell, Side, Vec3};
+use brazilnut_fluid::grid::GHOSTS;
 use brazilnut_fluid::{Faces, Flow, Medium, Predicted, Scheme, Solver};
 use brazilnut_grains::Grains;
+use rayon::prelude::*;
 
 /// A rung's tables and buffers; rebuilt from the case, not saved.
 #[derive(Debug)]
@@ -44,7 +46,7 @@ struct ResolvedWork {
 
 #[derive(Debug)]
 enum Holder {
-    Cover { cover: Cover, felt: Vec<Felt> },
+    Cover { cover: Cover, felt: Vec<Felt>, imposed: [Vec<Tally>; 3] },
     Springs { springs: Springs, work: Box<TracerWork>, grips: Vec<f64> },
     Forcing { forcing: Forcing, work: Box<TracerWork>, anticipate: bool },
 }
@@ -179,7 +181,11 @@ impl ResolvedWork {
         };
         let n = grains.len();
         let holder = match spec.method {
-            Method::Template => Holder::Cover { cover: Cover::new(grid), felt: vec![Felt::default(); n] },
+            Method::Template => Holder::Cover {
+                cover: Cover::new(grid),
+                felt: vec![Felt::default(); n],
+                imposed: [0, 1, 2].map(|_| vec![Tally::default(); n]),
+            },
             Method::Springs(springs) => Holder::Springs { springs, work: work(), grips: vec![0.0; n] },
             Method::Forcing(forcing) => {
                 // A first-order prediction lacks the pressure; without it the slip removed would come back.
@@ -207,7 +213,7 @@ impl ResolvedWork {
                     enclosed(spec, grains, work, &mut state.enclosed);
                 }
             }
-            Holder::Cover { cover, felt } => {
+            Holder::Cover { cover, felt, .. } => {
                 if unknown {
                     cover.feel(grains, flow, spec.density, spec.viscosity, felt);
                     state.enclosed.clear();
@@ -219,10 +225,14 @@ impl ResolvedWork {
 
     fn during_fluid(&mut self, spec: &Resolved, grains: &Grains, p: &mut Predicted<'_>) {
         match &mut self.holder {
-            Holder::Cover { cover, .. } => {
-                cover.impose(grains, p.density, p.velocity, &mut self.given);
+            Holder::Cover { cover, imposed, .. } => {
+                cover.impose(grains, p.density, p.velocity, imposed);
                 self.total = Tally::default();
-                self.given.iter().for_each(|g| self.total += *g);
+                for (k, given) in self.given.iter_mut().enumerate() {
+                    *given = Tally::default();
+                    imposed.iter().for_each(|component| *given += component[k]);
+                    self.total += *given;
+                }
             }
             Holder::Springs { springs, work, grips } => {
                 for (k, grip) in grips.iter_mut().enumerate() {
@@ -283,7 +293,7 @@ impl ResolvedWork {
                     state.exchange.on_grains += state.loads[k].force - taken_up;
                 }
             }
-            Holder::Cover { cover, felt } => {
+            Holder::Cover { cover, felt, .. } => {
                 cover.feel(grains, flow, spec.density, spec.viscosity, felt);
                 let mut slip = Tally::default();
                 for k in 0..grains.len() {
@@ -319,29 +329,33 @@ fn enclosed(spec: &Resolved, grains: &Grains, work: &TracerWork, out: &mut Vec<E
 /// Adds `factor` grad P to the predicted velocity on faces that are not on walls.
 fn push_by_pressure(p: &mut Predicted<'_>, factor: f64) {
     let layout = p.grid.layout();
+    let [line, middle, slow] = p.grid.memory_order();
+    let plane = layout.stride[slow];
     for c in 0..3 {
         if p.grid.sides[c] == Side::Flat {
             continue;
         }
         let (stride, scale) = (layout.stride[c], factor / p.grid.spacing[c]);
-        let [line, middle, slow] = p.grid.memory_order();
         let mut range = p.grid.cell_range();
         if p.grid.sides[c] == Side::Walls {
             range[c].start = 1;
         }
         let values: &mut [f64] = Faces::component_mut(p.velocity, c);
         let pressure = &p.pressure.values;
-        for k in range[slow].clone() {
+        values.par_chunks_mut(plane).enumerate().for_each(|(level, values)| {
+            if !range[slow].contains(&(level as isize - GHOSTS as isize)) {
+                return;
+            }
             for j in range[middle].clone() {
-                let row = (layout.origin as isize
-                    + k * layout.stride[slow] as isize
-                    + j * layout.stride[middle] as isize
-                    + range[line].start * layout.stride[line] as isize) as usize;
+                let from = layout.origin % plane + (j * layout.stride[middle] as isize) as usize;
+                let row = from + range[line].start as usize;
+                let (behind, here) = (level * plane + row - stride, level * plane + row);
                 let n = range[line].len();
-                for i in row..row + n {
-                    values[i] += scale * (pressure[i] - pressure[i - stride]);
+                let (p0, p1) = (&pressure[behind..behind + n], &pressure[here..here + n]);
+                for ((v, p0), p1) in values[row..row + n].iter_mut().zip(p0).zip(p1) {
+                    *v += scale * (p1 - p0);
                 }
             }
-        }
+        });
     }
 }

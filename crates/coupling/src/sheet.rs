@@ -24,15 +24,26 @@ pub struct Population {
 pub struct Sheet {
     /// Name and value.
     pub lines: Vec<(String, String)>,
-    /// What cannot work, with a remedy.
-    pub refusals: Vec<String>,
+    /// What cannot work.
+    pub refusals: Vec<Refusal>,
     /// What may surprise.
     pub warnings: Vec<String>,
 }
 
+/// Something that cannot work, and what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// What is wrong.
+    pub message: String,
+    /// Why.
+    pub cause: String,
+    /// What to do.
+    pub remedy: String,
+}
+
 /// Below this density ratio direct forcing of a full mass is unstable (Kempe & Fröhlich 2012).
 const LIGHTEST_FORCED: f64 = 0.3;
-/// From this porosity ratio on an explicit exchange of added mass overshoots.
+/// From this ratio to the grain's mass on an explicit exchange of added mass overshoots.
 const ADDED_MASS: f64 = 1.0;
 /// Porosity of a random packing (Clément 2.4.1).
 const PACKED: f64 = 0.42;
@@ -66,6 +77,10 @@ impl Sheet {
         self.lines.push((name.into(), value));
     }
 
+    fn refuse(&mut self, message: String, cause: String, remedy: &str) {
+        self.refusals.push(Refusal { message, cause, remedy: remedy.into() });
+    }
+
     fn averaged(&mut self, density: f64, grid: &Grid, populations: &[Population]) {
         for p in populations {
             let h = crate::resolved::tracers::spacing(grid);
@@ -79,10 +94,11 @@ impl Sheet {
             }
             let ratio = density * (1.0 - PACKED) / (p.density * PACKED);
             if ratio >= ADDED_MASS {
-                self.refusals.push(format!(
-                    "{} are too light for `navier-stokes`: in a packed bed the added mass is {ratio:.2} times the grain's and the explicit exchange overshoots; use `direct-forcing`",
-                    p.name
-                ));
+                self.refuse(
+                    format!("{} are too light for `navier-stokes`", p.name),
+                    format!("in a packed bed the added mass is {ratio:.2} times theirs: the explicit exchange overshoots"),
+                    "use `direct-forcing`",
+                );
             }
         }
     }
@@ -119,10 +135,11 @@ impl Sheet {
                     self.line(format!("tracers of {}", p.name), tracers.to_string());
                     self.line("sweeps", f.sweeps.to_string());
                     if p.density < LIGHTEST_FORCED * spec.density {
-                        self.refusals.push(format!(
-                            "{} are too light for `direct-forcing`, which is stable down to {LIGHTEST_FORCED} of the fluid's density",
-                            p.name
-                        ));
+                        self.refuse(
+                            format!("{} are too light for `direct-forcing`", p.name),
+                            format!("it is stable down to {LIGHTEST_FORCED} of the fluid's density, and {:.3} is less", p.density / spec.density),
+                            "give the grains a higher density",
+                        );
                     }
                 }
             }
@@ -134,10 +151,11 @@ impl Sheet {
 
     fn template(&mut self, p: &Population, density: f64) {
         if p.density <= density {
-            self.refusals.push(format!(
-                "{} are no denser than the fluid: the explicit force of `particle-template` overshoots; use `direct-forcing`",
-                p.name
-            ));
+            self.refuse(
+                format!("{} are too light for `particle-template`", p.name),
+                "they are no denser than the fluid: the explicit force overshoots".into(),
+                "use `direct-forcing`",
+            );
         }
     }
 
@@ -153,10 +171,11 @@ impl Sheet {
     ) {
         let body = spec.spring_body(p.mass, p.radius, tracers, grid.cell_volume());
         if body.template_mass <= 0.0 {
-            self.refusals.push(format!(
-                "{} are no denser than the fluid: their template has no mass; use `direct-forcing`",
-                p.name
-            ));
+            self.refuse(
+                format!("{} are too light for `fluid-springs`", p.name),
+                "they are no denser than the fluid: their template has no mass".into(),
+                "use `direct-forcing`",
+            );
             return;
         }
         let (alpha, tau) = (springs.alpha(&body, dt), springs.relaxation_time(&body, dt));
@@ -176,10 +195,11 @@ impl Sheet {
         let carried = if springs.inertia == Inertia::Template { "template" } else { "grain" };
         self.line(format!("stiffness of {} (stable below 2)", p.name), format!("{stiffness:.3}"));
         if stiffness >= 2.0 {
-            self.refusals.push(format!(
-                "the springs of {} are unstable: a step takes {stiffness:.2} of the slip away from fluid and {carried} (limit 2); raise `relaxation_time` or shorten the step",
-                p.name
-            ));
+            self.refuse(
+                format!("the springs of {} are unstable", p.name),
+                format!("a step takes {stiffness:.2} of the slip away from fluid and {carried} (limit 2)"),
+                "weaken the springs (longer `relaxation_time`, lower `c_s`) or shorten the step",
+            );
         }
     }
 }

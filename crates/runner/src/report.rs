@@ -141,6 +141,9 @@ fn facts(s: &Status) -> Content {
             "of the smaller radius, as the guards saw it",
         )
         .row("threads", s.threads.to_string(), "");
+    for (name, value) in &s.coupling {
+        let _ = sheet.row(name.clone(), significant(*value, 3), "");
+    }
     for (stage, seconds) in &s.timing {
         let _ = sheet.row(stage.clone(), format!("{} s", significant(*seconds, 3)), "");
     }

@@ -13,8 +13,10 @@ use crate::stop::{Early, Watch};
 use brazilnut_base::Tick;
 use brazilnut_case::build::Built;
 use brazilnut_case::{Case, build, check, resolved};
+use brazilnut_coupling::Measured;
 use brazilnut_observe::FlowView;
 use brazilnut_report::sheet::Sheet;
+use brazilnut_sim::plan::Medium;
 use brazilnut_sim::{Ended, Simulation, Stage, State, view};
 use brazilnut_store::checkpoint::{self, Header};
 use brazilnut_store::lock::Lock;
@@ -384,6 +386,10 @@ impl<'a> Job<'a> {
         let per_second = steps as f64 / self.spent.stepping.max(1e-9);
         let grains = plan.start.len();
         let energy = view::ledger(&self.simulation.ledger());
+        let measured = match (&plan.medium, &state.coupling) {
+            (Medium::Coupled(spec, _), Some(coupling)) => Measured::of(spec, coupling),
+            _ => Measured::default(),
+        };
         let timing = [
             ("settling", self.spent.settling),
             ("stepping", self.spent.stepping),
@@ -409,8 +415,15 @@ impl<'a> Job<'a> {
             largest_overlap: state.largest_overlap,
             largest_energy_residual: state.largest_residual,
             energy: energy.iter().map(|(k, v)| ((*k).to_string(), *v)).collect(),
+            coupling: measured.numbers.iter().map(|(k, v)| ((*k).to_string(), *v)).collect(),
             timing: timing.iter().map(|(k, v)| ((*k).to_string(), *v)).collect(),
-            warnings: self.warnings.iter().chain(self.simulation.warnings()).cloned().collect(),
+            warnings: self
+                .warnings
+                .iter()
+                .chain(self.simulation.warnings())
+                .chain(&measured.warnings)
+                .cloned()
+                .collect(),
             error,
         })
     }

@@ -18,6 +18,7 @@ pub fn sheet(title: &str, model: &str, built: &Built) -> Sheet {
     shaker(&mut s, built);
     steps(&mut s, built);
     fluid(&mut s, built);
+    coupling(&mut s, built);
     cost(&mut s, built);
     s
 }
@@ -154,6 +155,19 @@ fn fluid(s: &mut Sheet, b: &Built) {
     }
     if !Check::Positive.passes(grain_density - density) && matches!(b.plan.medium, Medium::SimpleDrag(_)) {
         s.warn("the grains are not heavier than the fluid: they will not settle in it");
+    }
+}
+
+fn coupling(s: &mut Sheet, b: &Built) {
+    let sheet = &b.facts.coupling;
+    if !sheet.lines.is_empty() {
+        s.group("Coupling");
+    }
+    for (name, value) in &sheet.lines {
+        s.row(name.as_str(), value.as_str(), "");
+    }
+    for warning in &sheet.warnings {
+        s.warn(warning.as_str());
     }
 }
 

@@ -44,6 +44,8 @@ pub struct Status {
     pub largest_energy_residual: f64,
     /// The energy ledger, J.
     pub energy: BTreeMap<String, f64>,
+    /// What was measured of the coupling between grains and fluid.
+    pub coupling: BTreeMap<String, f64>,
     /// Seconds by stage.
     pub timing: BTreeMap<String, f64>,
     /// Warnings.

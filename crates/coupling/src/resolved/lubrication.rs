@@ -269,6 +269,29 @@ mod tests {
         assert_eq!(loads[0].force.y, 0.0, "only along the line of centres");
     }
 
+    /// Zero from `max_gap` on, 1/s − 1/s_max within, the value at `min_gap` below it (Clément eq. 2.109-2.112).
+    #[test]
+    fn the_force_keeps_to_its_cut_offs() {
+        let force = |gap: f64| {
+            let mut g = Grains::default();
+            grain(&mut g, vec3(1e-3, 2e-3, 2e-3), vec3(0.2, 0.0, 0.0));
+            grain(&mut g, vec3(2e-3 + gap, 2e-3, 2e-3), Vec3::ZERO);
+            let mut loads = vec![Load::default(); 2];
+            Films::default().add(&LAW, 1e-3, &cell(), &g, 1e-11, &mut loads);
+            -loads[0].force.x
+        };
+        assert_eq!(force(1.0001 * LAW.max_gap), 0.0);
+        // Continuous at the upper cut-off: 1/s − 1/s_max there is a millionth of its value at a tenth of the gap.
+        assert!(force(LAW.max_gap * (1.0 - 1e-6)) < 2e-7 * force(0.1 * LAW.max_gap));
+        let ratio = force(5e-6) / force(2e-5);
+        // (2e5 − 1e4)/(5e4 − 1e4); rounding of positions, 1e-16 m in 5e-6 m, and the implicit part, 1e-8.
+        assert!((ratio / 4.75 - 1.0).abs() < 1e-7, "{ratio}");
+        let floor = force(LAW.min_gap);
+        for gap in [0.5 * LAW.min_gap, 0.0, -2e-6] {
+            assert!((force(gap) / floor - 1.0).abs() < 1e-7, "no growth below the roughness, nor in contact");
+        }
+    }
+
     #[test]
     fn walls_and_images_count() {
         let mut g = Grains::default();

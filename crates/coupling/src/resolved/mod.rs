@@ -4,6 +4,7 @@ pub mod forcing;
 pub mod leak;
 pub mod lubrication;
 pub mod menu;
+mod reach;
 pub mod schedule;
 pub mod springs;
 pub mod sweep;

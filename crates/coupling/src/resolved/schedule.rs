@@ -1,5 +1,6 @@
-//! Who spreads when: parts of templates in the order of the planes they touch,
-//! in slabs of which every other one may be worked on at once.
+//! Who spreads when: parts of templates in slabs of planes, of which every
+//! other one may be worked on at once; within a slab in columns of the grid,
+//! so that neighbours find their faces in the cache.
 //!
 //! The order of additions to a face depends on the grains and the grid alone,
 //! never on the number of threads.
@@ -25,6 +26,9 @@ const ABOVE: isize = PART_SPAN as isize + 2;
 /// Planes in a slab: two slabs of one colour may not touch the same plane.
 const THICKNESS: usize = 8;
 
+/// Edge, in cells, of the columns in which grains are taken.
+const COLUMN: f64 = 8.0;
+
 /// Fewer tracers than this are swept by one thread: the pool would cost more than it saves.
 pub const WORTH_THREADS: usize = 20_000;
 
@@ -37,6 +41,52 @@ pub struct Window<'a> {
     pub components: [&'a mut [f64]; 3],
 }
 
+/// Grains by the column of the grid that their centre lies in.
+#[derive(Clone, Debug)]
+struct Columns {
+    axes: [usize; 2],
+    per_column: [f64; 2],
+    number: [usize; 2],
+    starts: Vec<u32>,
+    /// Identities, column by column.
+    order: Vec<u32>,
+}
+
+impl Columns {
+    fn new(grid: &Grid, grains: usize) -> Self {
+        let [line, middle, _] = grid.memory_order();
+        let axes = [middle, line];
+        let number = axes.map(|a| (grid.cells[a] as f64 / COLUMN).ceil() as usize);
+        let per_column = axes.map(|a| 1.0 / (COLUMN * grid.spacing[a]));
+        Self { axes, per_column, number, starts: vec![0; number[0] * number[1] + 1], order: vec![0; grains] }
+    }
+
+    fn of(&self, x: Vec3) -> usize {
+        let place = |k: usize| {
+            let at = (x[self.axes[k]] * self.per_column[k]).max(0.0) as usize;
+            at.min(self.number[k] - 1)
+        };
+        place(0) * self.number[1] + place(1)
+    }
+
+    fn sort(&mut self, positions: &[Vec3]) {
+        self.starts.fill(0);
+        for x in positions {
+            let column = self.of(*x);
+            self.starts[column + 1] += 1;
+        }
+        for c in 1..self.starts.len() {
+            self.starts[c] += self.starts[c - 1];
+        }
+        for (k, x) in positions.iter().enumerate() {
+            let column = self.of(*x);
+            let place = &mut self.starts[column];
+            self.order[*place as usize] = k as u32;
+            *place += 1;
+        }
+    }
+}
+
 /// Parts in slabs.
 #[derive(Clone, Debug)]
 pub struct Schedule {
@@ -46,17 +96,20 @@ pub struct Schedule {
     stride: usize,
     spacing: f64,
     slabs: usize,
+    /// Slab of each plane.
+    slab_of: Vec<u32>,
+    columns: Columns,
     /// First place of each grain in `rank`.
     first: Vec<usize>,
-    /// Plane of each part, grain by grain; then its place in `items`.
+    /// Slab of each part, grain by grain; then its place in `items`.
     rank: Vec<u32>,
     counts: Vec<u32>,
     /// The parts, slab by slab, those across the periodic side last.
     pub items: Vec<Item>,
     /// First item of each slab; then that of the seam, then the end.
     starts: Vec<usize>,
-    /// First tracer of each item; then the end.
-    tracers: Vec<usize>,
+    /// First batch of each item; then the end.
+    batches: Vec<usize>,
     parallel: bool,
 }
 
@@ -72,8 +125,11 @@ impl Schedule {
         let parts = first[templates.of.len()];
         let planes = grid.cells[slow];
         let slabs = (planes / THICKNESS).max(1);
+        let slab_of = |plane| (0..slabs).rfind(|s| planes * s / slabs <= plane).unwrap_or(0) as u32;
         Self {
             slow,
+            slab_of: (0..planes).map(slab_of).collect(),
+            columns: Columns::new(grid, templates.of.len()),
             planes,
             periodic: grid.sides[slow] == Side::Periodic,
             stride: grid.layout().stride[slow],
@@ -81,48 +137,50 @@ impl Schedule {
             slabs,
             first,
             rank: vec![0; parts],
-            counts: vec![0; planes + 2],
+            counts: vec![0; slabs + 2],
             items: vec![Item::default(); parts],
             starts: vec![0; slabs + 2],
-            tracers: vec![0; parts + 1],
+            batches: vec![0; parts + 1],
             parallel: slabs >= 4 && templates.count() >= WORTH_THREADS,
         }
     }
 
-    /// Sorts the parts of grains at `positions` (m) by plane; equal planes by identity.
+    /// Sorts the parts of grains at `positions` (m) by slab, in it by column, in it by identity.
     pub fn sort(&mut self, templates: &Templates, positions: &[Vec3]) {
         let n = self.planes as isize;
         self.counts.fill(0);
         for (k, x) in positions.iter().enumerate() {
             let (template, scale) = templates.fit(k);
             for (p, part) in template.parts.iter().enumerate() {
-                let low = x[self.slow] + scale * template.points[part.points[0]][self.slow];
+                let low = x[self.slow] + scale * part.low[self.slow];
                 let base = (low / self.spacing).floor() as isize;
                 let across = base < BELOW || base + ABOVE >= n;
-                let key = if self.periodic && across { n } else { base.clamp(0, n - 1) };
-                self.rank[self.first[k] + p] = key as u32;
-                self.counts[key as usize + 1] += 1;
+                let slab = match self.periodic && across {
+                    true => self.slabs as u32,
+                    false => self.slab_of[base.clamp(0, n - 1) as usize],
+                };
+                self.rank[self.first[k] + p] = slab;
+                self.counts[slab as usize + 1] += 1;
             }
         }
-        for plane in 0..=self.planes {
-            self.counts[plane + 1] += self.counts[plane];
+        for s in 0..=self.slabs {
+            self.counts[s + 1] += self.counts[s];
+            self.starts[s] = self.counts[s] as usize;
         }
-        for s in 0..self.slabs {
-            self.starts[s] = self.counts[self.slab_planes(s)] as usize;
-        }
-        self.starts[self.slabs] = self.counts[self.planes] as usize;
         self.starts[self.slabs + 1] = self.items.len();
-        for k in 0..positions.len() {
-            for p in self.first[k]..self.first[k + 1] {
+        self.columns.sort(positions);
+        for k in &self.columns.order {
+            let grain = *k as usize;
+            for p in self.first[grain]..self.first[grain + 1] {
                 let place = &mut self.counts[self.rank[p] as usize];
                 self.rank[p] = *place;
-                self.items[*place as usize] = Item { grain: k as u32, part: (p - self.first[k]) as u32 };
+                self.items[*place as usize] = Item { grain: *k, part: (p - self.first[grain]) as u32 };
                 *place += 1;
             }
         }
         for (i, item) in self.items.iter().enumerate() {
             let part = templates.fit(item.grain as usize).0.parts[item.part as usize];
-            self.tracers[i + 1] = self.tracers[i] + part.points[1] - part.points[0];
+            self.batches[i + 1] = self.batches[i] + part.batches[1] - part.batches[0];
         }
     }
 
@@ -136,13 +194,13 @@ impl Schedule {
         self.rank[self.first[k]..self.first[k + 1]].iter().map(|r| *r as usize)
     }
 
-    /// Number of tracers.
+    /// Number of batches of tracers.
     #[must_use]
-    pub fn tracer_count(&self) -> usize {
-        self.tracers[self.items.len()]
+    pub fn batch_count(&self) -> usize {
+        self.batches[self.items.len()]
     }
 
-    /// Calls `work(item, its tracers' slots, its result slot)` for all items; nothing else is shared.
+    /// Calls `work(item, its batches' slots, its result slot)` for all items; nothing else is shared.
     pub fn gather<T: Send, R: Send>(
         &self,
         slots: &mut [T],
@@ -165,19 +223,19 @@ impl Schedule {
         if !self.parallel || high - low <= BLOCK {
             let mut rest = slots;
             for i in low..high {
-                let (own, after) = rest.split_at_mut(self.tracers[i + 1] - self.tracers[i]);
+                let (own, after) = rest.split_at_mut(self.batches[i + 1] - self.batches[i]);
                 work(self.items[i], own, &mut results[i - low]);
                 rest = after;
             }
             return;
         }
         let middle = low + (high - low) / 2;
-        let (a, b) = slots.split_at_mut(self.tracers[middle] - self.tracers[low]);
+        let (a, b) = slots.split_at_mut(self.batches[middle] - self.batches[low]);
         let (q, r) = results.split_at_mut(middle - low);
         rayon::join(|| self.halve(low, middle, a, q, work), || self.halve(middle, high, b, r, work));
     }
 
-    /// Calls `work(item, window, its first tracer, its result slot)` for all items,
+    /// Calls `work(item, window, its first batch, its result slot)` for all items,
     /// such that no two tasks at once share a plane.
     pub fn spread<R: Send>(
         &self,
@@ -196,7 +254,7 @@ impl Schedule {
             }
         }
         for i in self.starts[self.slabs]..self.items.len() {
-            work(self.items[i], &mut all, self.tracers[i], &mut results[i]);
+            work(self.items[i], &mut all, self.batches[i], &mut results[i]);
         }
     }
 
@@ -215,7 +273,7 @@ impl Schedule {
         if !self.parallel || high - low == 1 {
             for k in low..high {
                 for i in self.starts[slab(k)]..self.starts[slab(k) + 1] {
-                    work(self.items[i], &mut window, self.tracers[i], &mut results[i - first]);
+                    work(self.items[i], &mut window, self.batches[i], &mut results[i - first]);
                 }
             }
             return;
@@ -269,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn every_part_stands_once_in_the_order_of_planes() {
+    fn every_part_stands_once_where_its_grain_looks_for_it() {
         let grid = Grid::new([12, 12, 64], [1.0; 3], [Side::Walls, Side::Walls, Side::Periodic]);
         let radii = vec![3.0; 40];
         let templates = Templates::new(&grid, Body::Sphere, &radii, Layout::Shells, 0.4);
@@ -287,6 +345,7 @@ mod tests {
         }
         let seam = s.starts[s.slabs];
         assert!(seam < s.items.len(), "some parts lie across the periodic side");
-        assert_eq!(s.tracer_count(), templates.count());
+        let batches: usize = (0..40).map(|k| templates.fit(k).0.batches.len()).sum();
+        assert_eq!(s.batch_count(), batches);
     }
 }

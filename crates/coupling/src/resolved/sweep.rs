@@ -1,8 +1,10 @@
 //! The loops over tracers.
 
+use super::reach::Reach;
 use super::schedule::{Item, Schedule, Window};
-use super::tracers::Templates;
+use super::tracers::{Batch, LANES, Template, Templates, Wide};
 use crate::transfer::{Kernel, Stagger};
+use crate::wide::{self, Task};
 use brazilnut_base::Vec3;
 use brazilnut_fluid::Faces;
 use brazilnut_grains::Grains;
@@ -29,7 +31,52 @@ impl std::ops::AddAssign for Tally {
     }
 }
 
-/// Everything a sweep reads.
+/// A [`Tally`] lane by lane.
+#[derive(Clone, Copy, Default)]
+struct WideTally {
+    impulse: Wide,
+    twist: Wide,
+    slip: [f64; LANES],
+    speed: [f64; LANES],
+}
+
+impl WideTally {
+    /// Adds momenta `p` of a batch with arms `r`.
+    #[inline(always)]
+    fn give(&mut self, r: &Wide, p: &Wide) {
+        for l in 0..LANES {
+            for c in 0..3 {
+                let (a, b) = ((c + 1) % 3, (c + 2) % 3);
+                self.impulse[c][l] += p[c][l];
+                self.twist[c][l] += r[a][l] * p[b][l] - r[b][l] * p[a][l];
+            }
+        }
+    }
+
+    /// Adds the slip of a batch of velocities `v`.
+    #[inline(always)]
+    fn leak(&mut self, slip: &Wide, v: &Wide, mask: &[f64; LANES]) {
+        let length = |v: &Wide, l: usize| (v[0][l] * v[0][l] + v[1][l] * v[1][l] + v[2][l] * v[2][l]).sqrt();
+        for l in 0..LANES {
+            self.slip[l] += length(slip, l);
+            self.speed[l] += mask[l] * length(v, l);
+        }
+    }
+
+    #[inline(always)]
+    fn sum(&self) -> Tally {
+        let add = |x: &[f64; LANES]| x.iter().sum::<f64>();
+        let vector = |x: &Wide| Vec3::from_array([add(&x[0]), add(&x[1]), add(&x[2])]);
+        Tally {
+            impulse: vector(&self.impulse),
+            twist: vector(&self.twist),
+            slip: add(&self.slip),
+            speed: add(&self.speed),
+        }
+    }
+}
+
+/// Everything that a sweep reads.
 #[derive(Clone, Copy)]
 pub struct Scene<'a> {
     /// Tables of the grid.
@@ -42,29 +89,84 @@ pub struct Scene<'a> {
     pub grains: &'a Grains,
 }
 
-/// One tracer: its place from the centre (m), its absolute place (m), the template's velocity there (m/s).
-#[derive(Clone, Copy, Debug)]
-pub struct Tracer {
-    /// From the centre.
-    pub arm: Vec3,
-    /// In the cell.
-    pub at: Vec3,
-    /// u + w x arm.
-    pub velocity: Vec3,
+/// A part of a template where its grain is.
+struct Placed<'a, K, const W: usize> {
+    reach: Reach<'a, K, W>,
+    template: &'a Template,
+    batches: [usize; 2],
+    scale: f64,
+    velocity: Vec3,
+    spin: Vec3,
 }
 
-impl Scene<'_> {
-    /// The tracers of `item`.
+impl<K: Kernel<W>, const W: usize> Placed<'_, K, W> {
     #[inline(always)]
-    pub fn tracers(&self, item: Item) -> impl Iterator<Item = Tracer> {
+    fn batches(&self) -> &[Batch] {
+        &self.template.batches[self.batches[0]..self.batches[1]]
+    }
+
+    /// Arms of a batch, m.
+    #[inline(always)]
+    fn arms(&self, batch: &Batch) -> Wide {
+        times(self.scale, &batch.arm)
+    }
+
+    /// u + w x r in every lane.
+    #[inline(always)]
+    fn velocities(&self, r: &Wide) -> Wide {
+        let (u, w) = (self.velocity, self.spin);
+        let mut v = ZERO;
+        for c in 0..3 {
+            let (a, b) = ((c + 1) % 3, (c + 2) % 3);
+            for l in 0..LANES {
+                v[c][l] = u[c] + w[a] * r[b][l] - w[b] * r[a][l];
+            }
+        }
+        v
+    }
+}
+
+const ZERO: Wide = [[0.0; LANES]; 3];
+
+/// (a − b) where there are tracers.
+#[inline(always)]
+fn difference(a: &Wide, b: &Wide, mask: &[f64; LANES]) -> Wide {
+    let mut out = ZERO;
+    for c in 0..3 {
+        for l in 0..LANES {
+            out[c][l] = mask[l] * (a[c][l] - b[c][l]);
+        }
+    }
+    out
+}
+
+/// s v in every lane.
+#[inline(always)]
+fn times(s: f64, v: &Wide) -> Wide {
+    let mut out = ZERO;
+    for c in 0..3 {
+        for l in 0..LANES {
+            out[c][l] = s * v[c][l];
+        }
+    }
+    out
+}
+
+impl<'a> Scene<'a> {
+    #[inline(always)]
+    fn placed<K: Kernel<W>, const W: usize>(&self, kernel: K, item: Item) -> Placed<'a, K, W> {
         let k = item.grain as usize;
         let (template, scale) = self.templates.fit(k);
-        let [low, high] = template.parts[item.part as usize].points;
-        let (x, u, w) = (self.grains.position[k], self.grains.velocity[k], self.grains.angular_velocity[k]);
-        template.points[low..high].iter().map(move |p| {
-            let arm = scale * *p;
-            Tracer { arm, at: x + arm, velocity: u + w.cross(arm) }
-        })
+        let part = &template.parts[item.part as usize];
+        let x = self.grains.position[k];
+        Placed {
+            reach: Reach::new(self.stagger, kernel, x, scale, template.lattice, part),
+            template,
+            batches: part.batches,
+            scale,
+            velocity: self.grains.velocity[k],
+            spin: self.grains.angular_velocity[k],
+        }
     }
 
     /// v_f − v_t at every tracer; `tallies` gets the leak.
@@ -72,16 +174,11 @@ impl Scene<'_> {
         &self,
         kernel: impl Kernel<W>,
         field: &Faces,
-        slips: &mut [Vec3],
+        slips: &mut [Wide],
         tallies: &mut [Tally],
     ) {
         self.schedule.gather(slips, tallies, |item, slips, tally| {
-            *tally = Tally::default();
-            for (t, slip) in self.tracers(item).zip(slips) {
-                *slip = self.stagger.interpolate(&self.stagger.seat(kernel, t.at), field) - t.velocity;
-                tally.slip += slip.length();
-                tally.speed += t.velocity.length();
-            }
+            wide::run(Slip { placed: self.placed(kernel, item), field, slips, tally });
         });
     }
 
@@ -91,20 +188,15 @@ impl Scene<'_> {
     pub fn push<const W: usize>(
         &self,
         kernel: impl Kernel<W>,
-        slips: &[Vec3],
+        slips: &[Wide],
         grip: impl Fn(usize) -> f64 + Sync,
         per_mass: f64,
         field: &mut Faces,
         tallies: &mut [Tally],
     ) {
         self.schedule.spread(field, tallies, |item, window, first, tally| {
-            let grip = grip(item.grain as usize);
-            for (t, slip) in self.tracers(item).zip(&slips[first..]) {
-                let impulse = -grip * *slip;
-                tally.impulse += impulse;
-                tally.twist += t.arm.cross(impulse);
-                self.deposit(kernel, t.at, per_mass * impulse, window);
-            }
+            let (placed, grip) = (self.placed(kernel, item), grip(item.grain as usize));
+            wide::run(Push { placed, slips: &slips[first..], grip, per_mass, window, tally });
         });
     }
 
@@ -119,18 +211,8 @@ impl Scene<'_> {
         tallies: &mut [Tally],
     ) {
         self.schedule.spread(field, tallies, |item, window, _, tally| {
-            *tally = Tally::default();
-            let grip = grip(item.grain as usize);
-            for t in self.tracers(item) {
-                let seat = self.stagger.seat(kernel, t.at);
-                let slip = self.stagger.interpolate(&seat, before) - t.velocity;
-                let impulse = -grip * slip;
-                tally.impulse += impulse;
-                tally.twist += t.arm.cross(impulse);
-                tally.slip += slip.length();
-                tally.speed += t.velocity.length();
-                self.deposit(kernel, t.at, per_mass * impulse, window);
-            }
+            let (placed, grip) = (self.placed(kernel, item), grip(item.grain as usize));
+            wide::run(SlipAndPush { placed, before, grip, per_mass, window, tally });
         });
     }
 
@@ -139,20 +221,11 @@ impl Scene<'_> {
         &self,
         kernel: impl Kernel<W>,
         field: &Faces,
-        slots: &mut [Vec3],
+        slots: &mut [Wide],
         tallies: &mut [Tally],
     ) {
         self.schedule.gather(slots, tallies, |item, _, tally| {
-            *tally = Tally::default();
-            let (template, _) = self.templates.fit(item.grain as usize);
-            let [low, high] = template.parts[item.part as usize].points;
-            for (t, share) in self.tracers(item).zip(&template.share[low..high]) {
-                let v = self.stagger.interpolate(&self.stagger.seat(kernel, t.at), field);
-                tally.impulse += *share * v;
-                tally.twist += *share * t.arm.cross(v);
-                tally.slip += (v - t.velocity).length();
-                tally.speed += t.velocity.length();
-            }
+            wide::run(Look { placed: self.placed(kernel, item), field, tally });
         });
     }
 
@@ -165,20 +238,110 @@ impl Scene<'_> {
         }
         sum
     }
+}
 
+struct Slip<'a, K, const W: usize> {
+    placed: Placed<'a, K, W>,
+    field: &'a Faces,
+    slips: &'a mut [Wide],
+    tally: &'a mut Tally,
+}
+
+impl<K: Kernel<W>, const W: usize> Task for Slip<'_, K, W> {
     #[inline(always)]
-    fn deposit<const W: usize>(
-        &self,
-        kernel: impl Kernel<W>,
-        at: Vec3,
-        amount: Vec3,
-        window: &mut Window<'_>,
-    ) {
-        let seat = self.stagger.seat(kernel, at);
-        for c in 0..3 {
-            if !self.stagger.is_flat(c) {
-                self.stagger.scatter(&seat, c, amount[c], window.components[c], window.start);
-            }
+    fn run(self) {
+        let placed = self.placed;
+        placed.reach.fetch(self.field);
+        let mut sum = WideTally::default();
+        for (batch, slip) in placed.batches().iter().zip(self.slips) {
+            let arms = placed.arms(batch);
+            let wanted = placed.velocities(&arms);
+            *slip = difference(&placed.reach.read(batch, &arms, self.field), &wanted, &batch.mask);
+            sum.leak(slip, &wanted, &batch.mask);
         }
+        *self.tally = sum.sum();
+    }
+}
+
+struct Push<'a, 'b, K, const W: usize> {
+    placed: Placed<'a, K, W>,
+    slips: &'a [Wide],
+    grip: f64,
+    per_mass: f64,
+    window: &'a mut Window<'b>,
+    tally: &'a mut Tally,
+}
+
+impl<K: Kernel<W>, const W: usize> Task for Push<'_, '_, K, W> {
+    #[inline(always)]
+    fn run(self) {
+        let placed = self.placed;
+        placed.reach.fetch_window(self.window);
+        let mut sum = WideTally::default();
+        for (batch, slip) in placed.batches().iter().zip(self.slips) {
+            let arms = placed.arms(batch);
+            let impulse = times(-self.grip, slip);
+            sum.give(&arms, &impulse);
+            placed.reach.write(batch, &arms, &times(self.per_mass, &impulse), self.window);
+        }
+        *self.tally += sum.sum();
+    }
+}
+
+struct SlipAndPush<'a, 'b, K, const W: usize> {
+    placed: Placed<'a, K, W>,
+    before: &'a Faces,
+    grip: f64,
+    per_mass: f64,
+    window: &'a mut Window<'b>,
+    tally: &'a mut Tally,
+}
+
+impl<K: Kernel<W>, const W: usize> Task for SlipAndPush<'_, '_, K, W> {
+    #[inline(always)]
+    fn run(self) {
+        let placed = self.placed;
+        placed.reach.fetch(self.before);
+        placed.reach.fetch_window(self.window);
+        let mut sum = WideTally::default();
+        for batch in placed.batches() {
+            let arms = placed.arms(batch);
+            let wanted = placed.velocities(&arms);
+            let slip = difference(&placed.reach.read(batch, &arms, self.before), &wanted, &batch.mask);
+            let impulse = times(-self.grip, &slip);
+            sum.give(&arms, &impulse);
+            sum.leak(&slip, &wanted, &batch.mask);
+            placed.reach.write(batch, &arms, &times(self.per_mass, &impulse), self.window);
+        }
+        *self.tally = sum.sum();
+    }
+}
+
+struct Look<'a, K, const W: usize> {
+    placed: Placed<'a, K, W>,
+    field: &'a Faces,
+    tally: &'a mut Tally,
+}
+
+impl<K: Kernel<W>, const W: usize> Task for Look<'_, K, W> {
+    #[inline(always)]
+    fn run(self) {
+        let placed = self.placed;
+        placed.reach.fetch(self.field);
+        let mut sum = WideTally::default();
+        for batch in placed.batches() {
+            let arms = placed.arms(batch);
+            let wanted = placed.velocities(&arms);
+            let v = placed.reach.read(batch, &arms, self.field);
+            let mut part = ZERO;
+            for c in 0..3 {
+                for l in 0..LANES {
+                    part[c][l] = batch.share[l] * v[c][l];
+                }
+            }
+            sum.give(&arms, &part);
+            sum.leak(&difference(&v, &wanted, &batch.mask), &wanted, &batch.mask);
+        }
+        *self.tally = sum.sum();
     }
 }

@@ -53,8 +53,9 @@ impl Cover {
         }
     }
 
-    /// Calls `f(place, arm)` for every free face of `component` within `radius` (m) of `x`.
-    fn each(&self, component: usize, x: Vec3, radius: f64, mut f: impl FnMut(usize, Vec3)) {
+    /// Calls `f(place, arm, number)` for every run of free faces of `component` within `radius` (m) of `x` that are
+    /// neighbours in memory, with the place and arm of the first.
+    fn runs(&self, component: usize, x: Vec3, radius: f64, mut f: impl FnMut(usize, Vec3, usize)) {
         if self.sides[component] == Side::Flat {
             return;
         }
@@ -86,31 +87,60 @@ impl Cover {
             for j in range(middle, disc.sqrt()) {
                 r[middle] = arm(middle, j);
                 let row = self.layout.origin + place(slow, k) + place(middle, j);
-                for i in range(line, (disc - r[middle] * r[middle]).max(0.0).sqrt()) {
-                    r[line] = arm(line, i);
-                    f(row + place(line, i), r);
+                let (mut low, high) =
+                    range(line, (disc - r[middle] * r[middle]).max(0.0).sqrt()).into_inner();
+                while low <= high {
+                    r[line] = arm(line, low);
+                    // A run ends where a periodic side begins again.
+                    let left = self.cells[line] - low.rem_euclid(self.cells[line]);
+                    let number = (high + 1 - low).min(left);
+                    f(row + place(line, low), r, number as usize);
+                    low += number;
                 }
             }
         }
     }
 
-    /// Gives covered faces the velocity of their body; `given` gets the momentum exchanged, kg m/s.
-    pub fn impose(&self, grains: &Grains, density: f64, field: &mut Faces, given: &mut [Tally]) {
-        let mass = density * self.volume;
-        for (g, given) in given.iter_mut().enumerate() {
-            *given = Tally::default();
-            let (u, w) = (grains.velocity[g], grains.angular_velocity[g]);
-            for c in 0..3 {
-                let values = field.component_mut(c);
-                self.each(c, grains.position[g], grains.radius[g], |place, arm| {
-                    let wanted = u[c] + w.cross(arm)[c];
-                    let impulse = mass * (wanted - values[place]);
-                    values[place] = wanted;
-                    given.impulse[c] += impulse;
-                    given.twist += arm.cross(impulse * Vec3::AXES[c]);
-                });
+    /// Gives covered faces the velocity of their body; `given` gets the momentum exchanged, kg m/s,
+    /// component by component.
+    ///
+    /// Where bodies overlap the last one wins: components go side by side, bodies one after another.
+    pub fn impose(&self, grains: &Grains, density: f64, field: &mut Faces, given: &mut [Vec<Tally>; 3]) {
+        let Faces { x, y, z } = field;
+        let mut components = [&mut x.values, &mut y.values, &mut z.values];
+        components.par_iter_mut().zip(given).enumerate().for_each(|(c, (values, given))| {
+            for (g, given) in given.iter_mut().enumerate() {
+                *given = self.impose_one(grains, g, c, density, values);
             }
+        });
+    }
+
+    fn impose_one(&self, grains: &Grains, g: usize, c: usize, density: f64, values: &mut [f64]) -> Tally {
+        let mass = density * self.volume;
+        let (u, w) = (grains.velocity[g][c], grains.angular_velocity[g]);
+        let mut sum = Moments::default();
+        self.runs(c, grains.position[g], grains.radius[g], |place, arm, number| {
+            let (first, step) = (u + w.cross(arm)[c], w.cross(self.along())[c]);
+            let mut run = Moments { arm, ..Moments::default() };
+            for (t, v) in values[place..place + number].iter_mut().enumerate() {
+                let wanted = first + t as f64 * step;
+                run.add(t, mass * (wanted - *v));
+                *v = wanted;
+            }
+            sum.join(&run, self.along());
+        });
+        Tally {
+            impulse: sum.total * Vec3::AXES[c],
+            twist: sum.moment.cross(Vec3::AXES[c]),
+            ..Tally::default()
         }
+    }
+
+    /// One spacing along the line axis, m.
+    #[inline(always)]
+    fn along(&self) -> Vec3 {
+        let line = self.order[0];
+        self.spacing[line] * Vec3::AXES[line]
     }
 
     /// Integrates the stress of `flow` over every body.
@@ -128,17 +158,25 @@ impl Cover {
         let mut felt = Felt::default();
         for c in 0..3 {
             let v = flow.velocity.component(c);
-            self.each(c, grains.position[g], grains.radius[g], |place, arm| {
-                let push = self.volume * self.stress(c, place, v, &flow.pressure, viscosity);
-                felt.stress.force[c] += push;
-                felt.stress.torque += arm.cross(push * Vec3::AXES[c]);
-                let momentum = density * self.volume * v[place];
-                felt.enclosed.momentum[c] += momentum;
-                felt.enclosed.angular += arm.cross(momentum * Vec3::AXES[c]);
-                let wanted = u[c] + w.cross(arm)[c];
-                felt.slip.slip += (v[place] - wanted).abs();
-                felt.slip.speed += wanted.abs();
+            let (mut push, mut carried) = (Moments::default(), Moments::default());
+            self.runs(c, grains.position[g], grains.radius[g], |place, arm, number| {
+                let (first, step) = (u[c] + w.cross(arm)[c], w.cross(self.along())[c]);
+                let mut run = [Moments { arm, ..Moments::default() }; 2];
+                for t in 0..number {
+                    run[0].add(t, self.stress(c, place + t, v, &flow.pressure, viscosity));
+                    run[1].add(t, v[place + t]);
+                    let wanted = first + t as f64 * step;
+                    felt.slip.slip += (v[place + t] - wanted).abs();
+                    felt.slip.speed += wanted.abs();
+                }
+                push.join(&run[0], self.along());
+                carried.join(&run[1], self.along());
             });
+            let axis = Vec3::AXES[c];
+            felt.stress.force += self.volume * push.total * axis;
+            felt.stress.torque += self.volume * push.moment.cross(axis);
+            felt.enclosed.momentum += density * self.volume * carried.total * axis;
+            felt.enclosed.angular += density * self.volume * carried.moment.cross(axis);
         }
         felt
     }
@@ -157,6 +195,33 @@ impl Cover {
     }
 }
 
+/// Sum of numbers and of their arms times them.
+#[derive(Clone, Copy, Default)]
+struct Moments {
+    /// Arm of the first of a run.
+    arm: Vec3,
+    total: f64,
+    /// Sum of place in the run times number.
+    along: f64,
+    moment: Vec3,
+}
+
+impl Moments {
+    /// Adds the number at place `t` of a run.
+    #[inline(always)]
+    fn add(&mut self, t: usize, x: f64) {
+        self.total += x;
+        self.along += t as f64 * x;
+    }
+
+    /// Adds a run whose places are `step` (m) apart.
+    #[inline(always)]
+    fn join(&mut self, run: &Self, step: Vec3) {
+        self.total += run.total;
+        self.moment += run.total * run.arm + run.along * step;
+    }
+}
+
 /// The same force from the momentum exchanged.
 #[must_use]
 pub fn exchanged(given: &Tally, before: &Enclosed, felt: &Felt, dt: f64) -> Load {
@@ -167,8 +232,8 @@ pub fn exchanged(given: &Tally, before: &Enclosed, felt: &Felt, dt: f64) -> Load
 #[must_use]
 pub fn covered_volume(cover: &Cover, body: Body, x: Vec3, radius: f64, component: usize) -> f64 {
     let mut n = 0;
-    cover.each(component, x, radius, |_, _| n += 1);
-    f64::from(n) * cover.volume / body.volume(radius)
+    cover.runs(component, x, radius, |_, _, number| n += number);
+    n as f64 * cover.volume / body.volume(radius)
 }
 
 #[cfg(test)]
@@ -211,16 +276,16 @@ mod tests {
         grains.velocity[0] = vec3(1.0, -2.0, 0.5);
         grains.angular_velocity[0] = vec3(0.1, 0.2, -0.3);
         let mut field = Faces::new(&g);
-        let mut given = [Tally::default()];
+        let mut given = [0, 1, 2].map(|_| vec![Tally::default()]);
         cover.impose(&grains, 2.0, &mut field, &mut given);
         for c in 0..3 {
             let sum: f64 = field.component(c).iter().sum();
             // Rounding of about 120 terms.
-            assert!((2.0 * g.cell_volume() * sum - given[0].impulse[c]).abs() < 1e-10);
+            assert!((2.0 * g.cell_volume() * sum - given[c][0].impulse[c]).abs() < 1e-10);
         }
         // Imposed again, nothing more is exchanged.
         cover.impose(&grains, 2.0, &mut field, &mut given);
-        assert_eq!(given[0].impulse, Vec3::ZERO);
+        assert_eq!(given.map(|g| g[0].impulse), [Vec3::ZERO; 3]);
     }
 
     #[test]

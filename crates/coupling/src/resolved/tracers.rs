@@ -56,28 +56,44 @@ pub struct Template {
     pub share: Vec<f64>,
     /// Pieces that span few planes of the grid.
     pub parts: Vec<Part>,
-    /// Runs of lattice neighbours along the contiguous axis; empty for other layouts.
-    pub rows: Vec<Row>,
+    /// The tracers in batches that are worked on at once.
+    pub batches: Vec<Batch>,
+    /// Batches are runs of neighbours on the grid's lattice along the contiguous axis.
+    pub lattice: bool,
 }
 
 /// A piece of a template: tracers within [`PART_SPAN`] planes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
     /// First tracer and the one after the last.
     pub points: [usize; 2],
-    /// First row and the one after the last.
-    pub rows: [usize; 2],
+    /// First batch and the one after the last.
+    pub batches: [usize; 2],
+    /// Box around them from the centre, m, for a scale of 1.
+    pub low: Vec3,
+    /// Its upper corner, m.
+    pub high: Vec3,
 }
 
-/// Lattice neighbours along the contiguous axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Row {
-    /// First tracer.
-    pub first: u32,
+/// Tracers in a batch.
+pub const LANES: usize = 8;
+
+/// A vector for each tracer of a batch, component by component.
+pub type Wide = [[f64; LANES]; 3];
+
+/// Up to [`LANES`] tracers; what lies beyond `len` is zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Batch {
     /// Number of tracers.
-    pub len: u16,
-    /// Lattice indices of the first, along the contiguous, middle and slow axis.
+    pub len: usize,
+    /// Lattice indices of the first, along the contiguous, middle and slow axis; zero for other layouts.
     pub at: [i16; 3],
+    /// Places from the centre, m, for a scale of 1.
+    pub arm: Wide,
+    /// Part of the body's volume that each stands for.
+    pub share: [f64; LANES],
+    /// One for each tracer.
+    pub mask: [f64; LANES],
 }
 
 /// Height of a part in planes of the grid.
@@ -172,23 +188,30 @@ impl Template {
         let total: f64 = points.iter().map(|p| p.1).sum();
         let share: Vec<f64> = points.iter().map(|p| p.1 / total).collect();
         let points: Vec<Vec3> = points.into_iter().map(|p| p.0).collect();
-        let rows = if layout == Layout::Lattice { rows(grid, &points) } else { vec![] };
-        let span = if layout == Layout::Lattice { 0.5 } else { PART_SPAN } * grid.spacing[slow];
+        let lattice = layout == Layout::Lattice;
+        // Whole planes of a lattice, two to a part.
+        let span = if lattice { PART_SPAN - 0.5 } else { PART_SPAN } * grid.spacing[slow];
         let mut parts: Vec<Part> = vec![];
         let mut low = f64::NEG_INFINITY;
         for (k, x) in points.iter().enumerate() {
             if x[slow] - low >= span {
                 low = x[slow];
-                parts.push(Part { points: [k, k], rows: [0, 0] });
+                parts.push(Part { points: [k, k], batches: [0, 0], low: *x, high: *x });
             }
             if let Some(last) = parts.last_mut() {
                 last.points[1] = k + 1;
+                last.low = last.low.min(*x);
+                last.high = last.high.max(*x);
             }
         }
+        let mut batches = vec![];
         for part in &mut parts {
-            part.rows = part.points.map(|p| rows.partition_point(|r| (r.first as usize) < p));
+            part.batches[0] = batches.len();
+            let range = part.points[0]..part.points[1];
+            batches.extend(batch(grid, lattice, &points[range.clone()], &share[range]));
+            part.batches[1] = batches.len();
         }
-        Self { points, share, parts, rows }
+        Self { points, share, parts, batches, lattice }
     }
 }
 
@@ -299,20 +322,35 @@ fn cubed_sphere(r: f64) -> Vec<Vec3> {
     points
 }
 
-/// Runs of neighbours along the contiguous axis among sorted lattice points.
-fn rows(grid: &Grid, points: &[Vec3]) -> Vec<Row> {
+/// The sorted points of a part in batches; on a lattice each is a run of neighbours along the contiguous axis.
+fn batch(grid: &Grid, lattice: bool, points: &[Vec3], share: &[f64]) -> Vec<Batch> {
     let order = grid.memory_order();
     let h = Vec3::from_array(grid.spacing);
-    let index = |x: &Vec3| order.map(|a| (x[a] / h[a]).round() as i16);
-    let mut rows: Vec<Row> = vec![];
-    for (k, x) in points.iter().enumerate() {
-        let at = index(x);
-        match rows.last_mut() {
-            Some(r) if at[1..] == r.at[1..] && at[0] == r.at[0] + r.len as i16 => r.len += 1,
-            _ => rows.push(Row { first: k as u32, len: 1, at }),
+    let mut batches: Vec<Batch> = vec![];
+    for (x, share) in points.iter().zip(share) {
+        let at = if lattice { order.map(|a| (x[a] / h[a]).round() as i16) } else { [0; 3] };
+        let joins = |b: &Batch| {
+            let next = at[1..] == b.at[1..] && at[0] == b.at[0] + b.len as i16;
+            b.len < LANES && (next || !lattice)
+        };
+        if !batches.last().is_some_and(joins) {
+            batches.push(Batch {
+                len: 0,
+                at,
+                arm: [[0.0; LANES]; 3],
+                share: [0.0; LANES],
+                mask: [0.0; LANES],
+            });
+        }
+        if let Some(b) = batches.last_mut() {
+            for c in 0..3 {
+                b.arm[c][b.len] = x[c];
+            }
+            (b.share[b.len], b.mask[b.len]) = (*share, 1.0);
+            b.len += 1;
         }
     }
-    rows
+    batches
 }
 
 #[cfg(test)]
@@ -330,9 +368,9 @@ mod tests {
         let n: Vec<usize> = (0..3).map(|k| t.fit(k).0.points.len()).collect();
         assert_eq!(n, [123, 93, 123]);
         assert_eq!(t.all.len(), 2, "equal templates are shared");
-        let rows = &t.fit(0).0.rows;
-        assert_eq!(rows.len(), 29);
-        assert_eq!(rows.iter().map(|r| r.len as usize).sum::<usize>(), 123);
+        let rows = &t.fit(0).0.batches;
+        assert_eq!(rows.len(), 29, "rows of a lattice ball of radius 3");
+        assert_eq!(rows.iter().map(|r| r.len).sum::<usize>(), 123);
     }
 
     #[test]

@@ -2,11 +2,10 @@
 
 use super::schedule::Schedule;
 use super::sweep::{Scene, Tally};
-use super::tracers::{Layout, Templates};
+use super::tracers::{LANES, Layout, Templates, Wide};
 use crate::body::Body;
 use crate::transfer::{KernelName, Stagger};
 use crate::with_kernel;
-use brazilnut_base::Vec3;
 use brazilnut_fluid::{Faces, Grid};
 use brazilnut_grains::Grains;
 
@@ -18,7 +17,7 @@ pub struct TracerWork {
     /// The tracers of each grain.
     pub templates: Templates,
     schedule: Schedule,
-    slips: Vec<Vec3>,
+    slips: Vec<Wide>,
     tallies: Vec<Tally>,
     /// What the tracers of each grain did, in the order of identity.
     pub of_grain: Vec<Tally>,
@@ -38,13 +37,14 @@ impl TracerWork {
     ) -> Self {
         let templates = Templates::new(grid, body, radii, layout, retraction);
         let schedule = Schedule::new(grid, &templates);
+        let batches = (0..radii.len()).map(|k| templates.fit(k).0.batches.len()).sum();
         let least = grid.spacing.iter().copied().fold(f64::INFINITY, f64::min);
         let largest = radii.iter().copied().fold(0.0, f64::max);
         Self {
             kernel,
             // A centre lies in the box, give or take an overlap; its tracers reach a radius beyond.
             stagger: Stagger::new(grid, (1.5 * largest / least) as usize + 4),
-            slips: vec![Vec3::ZERO; templates.count()],
+            slips: vec![[[0.0; LANES]; 3]; batches],
             tallies: vec![Tally::default(); schedule.items.len()],
             of_grain: vec![Tally::default(); radii.len()],
             schedule,

@@ -18,10 +18,17 @@ pub struct Trilinear;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Roma;
 
+/// ⌊s⌋ without the call into the library that processors before SSE4.1 need.
+#[inline(always)]
+fn floor(s: f64) -> f64 {
+    let i = f64::from(s as i32);
+    if i > s { i - 1.0 } else { i }
+}
+
 impl Kernel<2> for Trilinear {
     #[inline(always)]
     fn weights(self, s: f64) -> (f64, [f64; 2]) {
-        let i = s.floor();
+        let i = floor(s);
         let f = s - i;
         (i, [1.0 - f, f])
     }
@@ -30,7 +37,7 @@ impl Kernel<2> for Trilinear {
 impl Kernel<3> for Roma {
     #[inline(always)]
     fn weights(self, s: f64) -> (f64, [f64; 3]) {
-        let i = (s + 0.5).floor();
+        let i = floor(s + 0.5);
         let r = s - i;
         let middle = (1.0 + (1.0 - 3.0 * r * r).sqrt()) / 3.0;
         // The outer pair follows from the sum (one) and the first moment (r).

@@ -14,4 +14,4 @@ mod stagger;
 mod suite;
 
 pub use kernel::{KERNELS, Kernel, KernelName, Roma, Trilinear};
-pub use stagger::{Seat, Stagger};
+pub use stagger::{Seat, Stagger, Stencil};

@@ -16,6 +16,7 @@ pub struct Stagger {
     order: [usize; 3],
     /// Place of (0, 0, 0).
     origin: usize,
+    cells: [f64; 3],
     per_spacing: Vec3,
 }
 
@@ -27,6 +28,17 @@ struct Axis {
     /// Offset in memory by index + `pad`, for values at cell centres and on faces.
     centre: Vec<usize>,
     face: Vec<usize>,
+}
+
+/// Where the weights of one component go around points away from the ends of the line axis: rows of memory.
+#[derive(Clone, Copy, Debug)]
+pub struct Stencil<const W: usize> {
+    /// Place of the first weight of each row.
+    rows: [[usize; W]; W],
+    /// Weight of each row: of the slow and the middle axis together.
+    across: [[f64; W]; W],
+    /// Weights along a row.
+    along: [f64; W],
 }
 
 /// Base indices and weights of one point: for each axis at cell centres (0) and on faces (1).
@@ -59,7 +71,13 @@ impl Stagger {
             }
         });
         let per_spacing = Vec3::from_array(grid.spacing.map(f64::recip));
-        Self { axes, order: grid.memory_order(), origin: layout.origin, per_spacing }
+        Self {
+            axes,
+            order: grid.memory_order(),
+            origin: layout.origin,
+            cells: grid.cells.map(|n| n as f64),
+            per_spacing,
+        }
     }
 
     /// True where `axis` is flat: there is no component and no weight along it.
@@ -162,6 +180,137 @@ impl Stagger {
         for c in 0..3 {
             if !self.axes[c].flat {
                 self.scatter(seat, c, amount[c], field.component_mut(c), 0);
+            }
+        }
+    }
+
+    /// True if no weight of points between `low` and `high` (m) meets an end of the line axis:
+    /// [`Self::stencil`] holds there.
+    #[inline]
+    #[must_use]
+    pub fn is_free<const W: usize>(&self, low: Vec3, high: Vec3) -> bool {
+        // A kernel reaches half its width; rounding must not reach further.
+        let margin = 0.5 * W as f64 + 1e-6;
+        let line = self.order[0];
+        let per_spacing = self.per_spacing[line];
+        low[line] * per_spacing >= margin && high[line] * per_spacing <= self.cells[line] - margin
+    }
+
+    /// Reads every cache line that points between `low` and `high` (m) share weights with: the loads do not wait for
+    /// each other, as those of the sums do, and these then find their values near.
+    ///
+    /// `field` is one component and begins at place `start` of the whole.
+    #[inline(always)]
+    pub fn fetch(&self, low: Vec3, high: Vec3, field: &[f64], start: usize) {
+        const LINE: usize = 8;
+        let range = |a: usize| {
+            let axis = &self.axes[a];
+            if axis.flat {
+                return (0, 0);
+            }
+            let last = axis.centre.len() as isize - 1;
+            let index = |x: f64, beyond: isize| {
+                ((x * self.per_spacing[a]) as isize + axis.pad + beyond).clamp(0, last)
+            };
+            (index(low[a], -1) as usize, index(high[a], 1) as usize)
+        };
+        let [line, middle, slow] = self.order;
+        let [i, j, k] = [range(line), range(middle), range(slow)];
+        let from = (self.origin + i.0).wrapping_sub(self.axes[line].pad as usize).wrapping_sub(start);
+        let mut sum = 0.0;
+        for plane in &self.axes[slow].centre[k.0..=k.1] {
+            for row in &self.axes[middle].centre[j.0..=j.1] {
+                let first = from.wrapping_add(plane + row);
+                for n in (0..i.1 - i.0 + LINE).step_by(LINE) {
+                    sum += field.get(first.wrapping_add(n)).unwrap_or(&0.0);
+                }
+            }
+        }
+        let _ = std::hint::black_box(sum);
+    }
+
+    /// The weights of `component` around a point, or `at` spacings along line, middle and slow axis from it,
+    /// away from the ends of the line axis.
+    #[inline(always)]
+    #[must_use]
+    pub fn stencil<const W: usize>(&self, seat: &Seat<W>, component: usize, at: [i16; 3]) -> Stencil<W> {
+        let [line, middle, slow] = self.order;
+        let kind = |a: usize| usize::from(a == component);
+        let table = |a: usize, at: i16| -> [usize; W] {
+            let axis = &self.axes[a];
+            if axis.flat {
+                return [0; W];
+            }
+            let t = if a == component { &axis.face } else { &axis.centre };
+            // A point that is lost must not fault here.
+            let first = (seat.first[a][kind(a)] + at as isize + axis.pad).max(0) as usize;
+            let first = first.min(t.len() - W);
+            let mut places = [0; W];
+            places.copy_from_slice(&t[first..first + W]);
+            places
+        };
+        let weights = |a: usize| &seat.weights[a][kind(a)];
+        let start = self.origin as isize + seat.first[line][kind(line)] + at[0] as isize;
+        let (middle_places, slow_places) = (table(middle, at[1]), table(slow, at[2]));
+        let (m, s) = (weights(middle), weights(slow));
+        let mut stencil = Stencil { rows: [[0; W]; W], across: [[0.0; W]; W], along: *weights(line) };
+        for k in 0..W {
+            for j in 0..W {
+                stencil.rows[k][j] = start.max(0) as usize + middle_places[j] + slow_places[k];
+                stencil.across[k][j] = s[k] * m[j];
+            }
+        }
+        stencil
+    }
+}
+
+/// Room for the longest row of a [`Stencil`] and a kernel.
+const LONGEST: usize = 16;
+
+impl<const W: usize> Stencil<W> {
+    /// Values at `L + 1 - W` points one spacing apart along the line axis, the point of the stencil first; what
+    /// stands behind them means nothing.
+    #[inline(always)]
+    #[must_use]
+    pub fn gather<const L: usize>(&self, field: &[f64]) -> [f64; L] {
+        let mut sum = [0.0; L];
+        for (rows, across) in self.rows.iter().zip(&self.across) {
+            for (place, w) in rows.iter().zip(across) {
+                let row = &field[*place..*place + L];
+                for l in 0..L {
+                    sum[l] += w * row[l];
+                }
+            }
+        }
+        let mut beyond = [0.0; LONGEST];
+        beyond[..L].copy_from_slice(&sum);
+        let mut out = [0.0; L];
+        for (k, w) in self.along.iter().enumerate() {
+            for t in 0..L {
+                out[t] += w * beyond[t + k];
+            }
+        }
+        out
+    }
+
+    /// The transpose of [`Self::gather`]: adds `amounts`, of which the last `W - 1` are zero; `field` begins at place
+    /// `start` of the whole.
+    #[inline(always)]
+    pub fn scatter<const L: usize>(&self, amounts: &[f64; L], field: &mut [f64], start: usize) {
+        let mut before = [0.0; LONGEST];
+        before[W - 1..W - 1 + L].copy_from_slice(amounts);
+        let mut sum = [0.0; L];
+        for (k, w) in self.along.iter().enumerate() {
+            for t in 0..L {
+                sum[t] += w * before[t + W - 1 - k];
+            }
+        }
+        for (rows, across) in self.rows.iter().zip(&self.across) {
+            for (place, w) in rows.iter().zip(across) {
+                let row = &mut field[place - start..place - start + L];
+                for l in 0..L {
+                    row[l] += w * sum[l];
+                }
             }
         }
     }

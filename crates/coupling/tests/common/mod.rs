@@ -5,7 +5,7 @@ use brazilnut_base::{Cell, Side, Tick, Vec3};
 use brazilnut_coupling::resolved::{Forcing, Inertia, Layout, RETRACTION, Springs, Strength};
 use brazilnut_coupling::transfer::KernelName;
 use brazilnut_coupling::{Body, Coupling, CouplingSpec, CouplingState, Held, Method, Resolved, Still};
-use brazilnut_fluid::{Advection, Faces, Flow, FluidSpec, Grid, Scheme, Solver};
+use brazilnut_fluid::{Advection, Boundary, Faces, Flow, FluidSpec, Grid, Profile, Scheme, Solver};
 use brazilnut_grains::contact::{NormalLaw, RollingLaw, TangentialLaw};
 use brazilnut_grains::{
     ContactSpec, Dem, DemSpec, DemState, Grains, Integrator, Limits, Material, PairSpec, PairTable, Search,
@@ -28,6 +28,8 @@ pub struct Plan {
     pub method: Method,
     pub rotation: bool,
     pub substeps: u64,
+    /// Speed at which fluid enters at low x and leaves at high x, between slippery sides, m/s.
+    pub stream: Option<f64>,
 }
 
 impl Plan {
@@ -42,6 +44,7 @@ impl Plan {
             method,
             rotation: true,
             substeps: 1,
+            stream: None,
         }
     }
 
@@ -90,6 +93,11 @@ pub fn rig(plan: Plan, bodies: &[(Vec3, f64, f64)]) -> Rig {
     let mut fluid = FluidSpec::new(grid, RHO, ETA);
     fluid.scheme = plan.scheme;
     fluid.advection = plan.advection;
+    if let Some(speed) = plan.stream {
+        fluid.sides = std::array::from_fn(|_| [Boundary::FreeSlip, Boundary::FreeSlip]);
+        let profile = Profile::Uniform(speed);
+        fluid.sides[0] = [Boundary::Inflow { profile }, Boundary::Outflow { pressure: 0.0 }];
+    }
     let solver = Solver::new(fluid).unwrap();
     let lattice = !matches!(plan.method, Method::Forcing(_));
     let spec = CouplingSpec::Resolved(Resolved {
@@ -128,7 +136,11 @@ pub fn rig(plan: Plan, bodies: &[(Vec3, f64, f64)]) -> Rig {
     .unwrap();
     let beads = dem.start(&grains).unwrap();
     let state = coupling.start(&grains);
-    let flow = solver.start();
+    let mut flow = solver.start();
+    if let Some(speed) = plan.stream {
+        flow.velocity.component_mut(0).fill(speed);
+        solver.refresh(&mut flow, 0.0);
+    }
     Rig { cell, coupling, state, dem, beads, grains, solver, flow, index: 0, hydrostatic: None, plan }
 }
 
