@@ -44,6 +44,7 @@ pub(crate) fn clock(
             }
             (dt, true)
         }
+        (Some(dt), Some(f)) if f.adaptive => (dt, true),
         (Some(dt), Some(f)) => {
             let limits = brazilnut_fluid::step_limits(f, facts.flow_speed);
             if let Some((name, limit)) =

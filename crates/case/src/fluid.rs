@@ -80,6 +80,14 @@ pub fn grid_fluid(v: &Values, cell: &Cell, spacing: f64, issues: &mut Issues) ->
     let grid = keys::read_grid(f, cell, spacing);
     let mut spec = FluidSpec::new(grid, f.number_opt("density")?, f.number_opt("viscosity")?);
     keys::read_numerics(f, &mut spec);
+    if spec.adaptive && v.text("model") != "fluid" {
+        issues.add(
+            f.span("steps"),
+            "adaptive steps are for a fluid alone",
+            "constants of the coupling are defined per step",
+            "remove `steps`, and give `time.dt` if the step that is found does not suit",
+        );
+    }
     for (k, name) in parts::SIDES.iter().enumerate() {
         let Some(side) = f.table_opt(name) else { continue };
         match keys::read_side(side) {

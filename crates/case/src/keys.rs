@@ -302,6 +302,12 @@ pub const TIME: &[Key] = &[
 /// `[output]`
 pub const OUTPUT: &[Key] = &[
     Key::default("frames", Kind::Every, "\"end\"", "When grains are written for ParaView."),
+    Key::default(
+        "fields",
+        Kind::Every,
+        "\"end\"",
+        "When the flow, where there is one, is written for ParaView.",
+    ),
     Key::default("dump", Kind::Flag, "false", "Also write a LAMMPS dump for OVITO."),
     Key::default("pictures", Kind::Integer, "4", "Number of pictures of the bed in the report.")
         .with(Check::Between(0.0, 64.0)),

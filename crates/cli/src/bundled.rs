@@ -3,6 +3,7 @@
 /// Name and text of each.
 const CASES: &[(&str, &str)] = &[
     ("wet-bed", include_str!("../../../cases/wet-bed.toml")),
+    ("cavity", include_str!("../../../cases/cavity.toml")),
     ("partition", include_str!("../../../cases/partition.toml")),
     ("brazil-nut", include_str!("../../../cases/brazil-nut.toml")),
     ("layers", include_str!("../../../cases/layers.toml")),

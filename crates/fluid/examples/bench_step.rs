@@ -83,7 +83,7 @@ fn main() {
         .filter_map(|g| g.split('x').map(|n| n.parse().ok()).collect::<Option<Vec<_>>>()?.try_into().ok())
         .collect();
     if grids.is_empty() {
-        grids = vec![[100; 3], [128; 3], [180, 45, 180], [64; 3]];
+        grids = vec![[100; 3], [128; 3], [180, 45, 180], [64; 3], [256; 3]];
     }
     let mut stream = Stream::new();
     println!("threads {}", rayon::current_num_threads());

@@ -29,10 +29,11 @@ impl Solver {
             .peaks
             .iter()
             .fold(0.0_f64, |a, &b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) });
-        if self.watched && tick.dt * peak <= 0.9 * limit {
+        let dt = tick.dt / self.substeps(flow, tick.dt) as f64;
+        if self.watched && dt * peak <= 0.9 * limit {
             return Ok(());
         }
-        let Some((cell, courant)) = self.worst_cell(flow, tick.dt) else { return Ok(()) };
+        let Some((cell, courant)) = self.worst_cell(flow, dt) else { return Ok(()) };
         let place = format!("fluid cell ({}, {}, {})", cell[0], cell[1], cell[2]);
         if !courant.is_finite() {
             return Err(Blowup {
@@ -47,7 +48,7 @@ impl Solver {
                 tick,
                 quantity: format!("Courant number {courant:.3} (limit {limit})"),
                 place,
-                remedy: format!("take steps of {:.3e} s or less", 0.5 * tick.dt * limit / courant),
+                remedy: format!("take steps of {:.3e} s or less", 0.5 * dt * limit / courant),
             });
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use crate::boundary::{BOUNDARIES, Boundary, Profile};
 use crate::grid::Grid;
-use crate::spec::{ADVECTIONS, Advection, DIFFUSIONS, Diffusion, FluidSpec, SCHEMES, Scheme};
+use crate::spec::{ADVECTIONS, Advection, DIFFUSIONS, Diffusion, FluidSpec, Instructions, SCHEMES, Scheme};
 use brazilnut_base::keys::{Check, Key, Kind};
 use brazilnut_base::menu::Entry;
 use brazilnut_base::motion::{Harmonic, Motion};
@@ -34,6 +34,18 @@ pub const KEYS: &[Key] = &[
         "The run stops where the fluid crosses more than this part of a cell in a step.",
     )
     .with(Check::Positive),
+    Key::default(
+        "steps",
+        Kind::Word(&["fixed", "adaptive"]),
+        "\"fixed\"",
+        "Adaptive: each step of the case is cut into as many equal parts as the flow at hand needs; for a fluid alone.",
+    ),
+    Key::default(
+        "instructions",
+        Kind::Word(&["best", "portable"]),
+        "\"best\"",
+        "Vector instructions: the widest this processor has, or plain code that runs everywhere; results differ by rounding.",
+    ),
 ];
 
 /// Shapes of an inflow.
@@ -83,6 +95,9 @@ pub fn read_numerics(values: &Values, spec: &mut FluidSpec) {
     spec.diffusion =
         if values.text("diffusion") == "implicit" { Diffusion::Implicit } else { Diffusion::Explicit };
     spec.courant_limit = values.number("courant_limit");
+    spec.adaptive = values.text_opt("steps") == Some("adaptive");
+    let portable = values.text_opt("instructions") == Some("portable");
+    spec.instructions = if portable { Instructions::Portable } else { Instructions::Best };
 }
 
 /// The grid that checked numerics ask for in `cell`, or one of the rung's `spacing` (m).
@@ -177,6 +192,7 @@ mod tests {
             ("advection", text("koren")),
             ("diffusion", text("implicit")),
             ("courant_limit", Value::Number(0.5)),
+            ("instructions", text("portable")),
             ("cells", Value::List(vec![Value::Integer(10), Value::Integer(7), Value::Integer(20)])),
         ]);
         let cell = Cell { size: vec3(1.0, 0.3, 2.0), sides: [Side::Walls, Side::Flat, Side::Walls] };
@@ -186,6 +202,7 @@ mod tests {
         read_numerics(&values, &mut spec);
         assert_eq!((spec.scheme, spec.advection), (Scheme::FirstOrder, Advection::Koren));
         assert_eq!((spec.diffusion, spec.courant_limit), (Diffusion::Implicit, 0.5));
+        assert_eq!(spec.instructions, Instructions::Portable);
         assert_eq!(read_grid(&table(&[]), &cell, 0.2).cells, [5, 1, 10]);
     }
 }

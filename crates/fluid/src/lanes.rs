@@ -102,6 +102,20 @@ macro_rules! native {
     };
 }
 
+/// Asks for the memory of `row` ahead of its use.
+#[inline(always)]
+#[allow(unsafe_code, reason = "a hint by address")]
+pub(crate) fn prefetch(row: &[f64]) {
+    #[cfg(target_arch = "x86_64")]
+    for line in row.chunks(8) {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: every x86-64 processor has the instruction, and it changes nothing.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(line.as_ptr().cast()) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = row;
+}
+
 impl<const W: usize, const FUSED: bool> Lanes<W, FUSED> {
     /// The path that leads to these lanes.
     #[inline(always)]

@@ -1,5 +1,7 @@
 //! Upper limits of the step, each a formula with its reason.
 
+use crate::flow::Flow;
+use crate::solver::Solver;
 use crate::spec::{Advection, Diffusion, FluidSpec, Scheme};
 use brazilnut_base::Side;
 
@@ -57,6 +59,28 @@ pub fn step_limits(spec: &FluidSpec, speed: f64) -> Vec<(&'static str, f64)> {
         }
     }
     limits
+}
+
+/// Part of the sharpest limit that adaptive steps take.
+const MARGIN: f64 = 0.8;
+/// More parts than this are a flow that blows up.
+const MOST: f64 = 1000.0;
+
+impl Solver {
+    /// How many equal parts a step of `dt` (s) needs for `flow` as it is; 1 where steps are fixed.
+    #[must_use]
+    pub fn substeps(&self, flow: &Flow, dt: f64) -> u64 {
+        if !self.spec().adaptive {
+            return 1;
+        }
+        // Ghosts too: they know the speed of a lid before the fluid does.
+        let fastest = (0..3)
+            .flat_map(|axis| flow.velocity.component(axis))
+            .fold(0.0_f64, |a, v| if v.is_nan() { f64::INFINITY } else { a.max(v.abs()) });
+        let limit = step_limits(self.spec(), fastest).into_iter().map(|l| l.1).fold(f64::INFINITY, f64::min);
+        let parts = (dt / (MARGIN * limit)).ceil();
+        if (1.0..=MOST).contains(&parts) { parts as u64 } else { 1 }
+    }
 }
 
 #[cfg(test)]

@@ -27,6 +27,8 @@ pub struct FluidSpec {
     pub advection: Advection,
     /// Diffusion.
     pub diffusion: Diffusion,
+    /// Steps are cut into as many parts as the flow at hand needs.
+    pub adaptive: bool,
     /// A run stops when max over faces of `dt sum |v_i| / h_i` exceeds this.
     pub courant_limit: f64,
     /// Which instructions the sweeps use.
@@ -100,6 +102,7 @@ impl FluidSpec {
             scheme: Scheme::SecondOrder,
             advection: Advection::Central,
             diffusion: Diffusion::Explicit,
+            adaptive: false,
             courant_limit: 1.0,
             instructions: Instructions::Best,
         }

@@ -22,5 +22,5 @@ pub mod zones;
 
 pub use observer::menu::{MENU, Observer, keys};
 pub use observer::{Observe, Sampling, Setting};
-pub use view::{ContactAt, FlowView, FluidAt, Needs, Partner, View, WallAt};
+pub use view::{ContactAt, FlowBalance, FlowView, FluidAt, Needs, Partner, View, WallAt};
 pub use watch::{COMMON, Watch};

@@ -6,7 +6,7 @@ use crate::synthetic::{Stage, Uniform, setting, values};
 use crate::view::{ContactAt, Partner, WallAt};
 use crate::watch::COMMON;
 use brazilnut_base::values::Value;
-use brazilnut_base::{Vec3, random, vec3};
+use brazilnut_base::{Side, Vec3, random, vec3};
 use rand::RngExt;
 
 /// A small bed of two species with contacts and walls, moving at random.
@@ -66,6 +66,10 @@ fn build(what: &str, setting: &Setting) -> Observer {
         v.insert("low", Value::Vector(Vec3::ZERO), None);
         v.insert("high", Value::Vector(vec3(0.1, 0.1, 0.1)), None);
     }
+    if what == "probe" {
+        v.insert("at", Value::Vector(Vec3::ZERO), None);
+        v.insert("to", Value::Vector(vec3(0.1, 0.1, 0.1)), None);
+    }
     if needs_of(what) {
         v.insert("of", Value::Text("other".into()), None);
     }
@@ -85,6 +89,9 @@ fn a_saved_observer_goes_on_as_if_nothing_had_happened() {
     for entry in MENU {
         let mut stage = stage();
         let species = [("all".to_string(), 59), ("other".to_string(), 1)];
+        if entry.name == "streamfunction" {
+            stage.cell.sides[1] = Side::Flat;
+        }
         let cell = stage.cell;
         let mut setting = setting(&cell, &species);
         let walls = ["floor".to_string()];

@@ -1,11 +1,11 @@
 //! Made-up grains and settings whose measures are known, for tests.
 
 use crate::observer::{Sampling, Setting};
-use crate::view::{ContactAt, FlowView, FluidAt, View, WallAt};
+use crate::view::{ContactAt, FlowBalance, FlowView, FluidAt, View, WallAt};
 use brazilnut_base::keys::{Absent, Key};
 use brazilnut_base::motion::Moved;
 use brazilnut_base::values::{Value, Values};
-use brazilnut_base::{Cell, Side, Tick, Vec3, random, vec3};
+use brazilnut_base::{Cell, PlaneField, Side, Tick, Vec3, random, vec3};
 use brazilnut_grains::{Collisions, Grains};
 use rand::RngExt;
 
@@ -59,6 +59,27 @@ impl FlowView for Uniform {
         let n = self.cells.map(|n| n as f64);
         let at = c.map(|c| c as f64 + 0.5);
         self.size * vec3(at[0] / n[0], at[1] / n[1], at[2] / n[2])
+    }
+
+    fn streamfunction(&self) -> Option<PlaneField> {
+        let shape = [self.cells[0] + 1, self.cells[2] + 1];
+        let spacing = [self.size.x / self.cells[0] as f64, self.size.z / self.cells[2] as f64];
+        let psi = |c: usize| {
+            let (i, j) = ((c % shape[0]) as f64, (c / shape[0]) as f64);
+            self.velocity.x * j * spacing[1] - self.velocity.z * i * spacing[0]
+        };
+        Some(PlaneField { axes: [0, 2], shape, spacing, values: (0..shape[0] * shape[1]).map(psi).collect() })
+    }
+
+    fn vorticity(&self) -> Option<PlaneField> {
+        let mut omega = self.streamfunction()?;
+        omega.values.fill(0.0);
+        Some(omega)
+    }
+
+    fn balance(&self, _: f64) -> FlowBalance {
+        let kinetic = 500.0 * self.velocity.length_squared() * self.size.x * self.size.y * self.size.z;
+        FlowBalance { kinetic, dissipation: 0.0, walls: 0.0, body: 0.0, divergence: 0.0, courant: 0.0 }
     }
 }
 

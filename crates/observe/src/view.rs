@@ -1,7 +1,7 @@
 //! What an observer may see: plain data, lent for one sample.
 
 use brazilnut_base::motion::Moved;
-use brazilnut_base::{Cell, Tick, Vec3};
+use brazilnut_base::{Cell, PlaneField, Tick, Vec3};
 use brazilnut_grains::{Collisions, Grains};
 
 /// The state of a run at one step boundary, read-only.
@@ -107,6 +107,33 @@ pub trait FlowView {
     fn cell_velocity(&self, cell: [usize; 3]) -> Vec3 {
         self.velocity(self.centre(cell))
     }
+    /// Streamfunction at the corners of the grid cells, m²/s (Clément eq. 2.39), in a cell with a flat direction.
+    fn streamfunction(&self) -> Option<PlaneField> {
+        None
+    }
+    /// Vorticity at the corners of the grid cells, 1/s, in a cell with a flat direction.
+    fn vorticity(&self) -> Option<PlaneField> {
+        None
+    }
+    /// Energy and volume of the flow, after a step of `dt` (s).
+    fn balance(&self, dt: f64) -> FlowBalance;
+}
+
+/// Energy and volume of a flow; what is not known is not a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlowBalance {
+    /// Kinetic energy, J.
+    pub kinetic: f64,
+    /// Power lost to viscosity, W.
+    pub dissipation: f64,
+    /// Power of moving walls, W.
+    pub walls: f64,
+    /// Power of the uniform acceleration, W.
+    pub body: f64,
+    /// Largest |div v|, 1/s.
+    pub divergence: f64,
+    /// Largest Courant number.
+    pub courant: f64,
 }
 
 /// What must be prepared for an observer beside the grains.

@@ -47,6 +47,12 @@ impl Directory {
         self.root.join("grains")
     }
 
+    /// The flow for ParaView.
+    #[must_use]
+    pub fn fields(&self) -> PathBuf {
+        self.root.join("fields")
+    }
+
     /// Grains for OVITO.
     #[must_use]
     pub fn dump(&self) -> PathBuf {
@@ -80,9 +86,7 @@ impl Directory {
                 "{shown} holds a run already\n  remedy: `--force` replaces it, `--out DIR` writes elsewhere, `brazilnut resume {shown}` continues it"
             )));
         }
-        for folder in
-            [self.tables(), self.grains(), self.pictures(), self.checkpoints(), self.root.join("fields")]
-        {
+        for folder in [self.tables(), self.grains(), self.pictures(), self.checkpoints(), self.fields()] {
             if folder.exists() {
                 std::fs::remove_dir_all(&folder).map_err(|e| cannot(&folder, &e))?;
             }

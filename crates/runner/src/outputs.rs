@@ -1,7 +1,7 @@
 //! Everything that grows while a run goes on: tables, frames, pictures.
 
 use crate::directory::Directory;
-use crate::pictures;
+use crate::{fields, pictures};
 use brazilnut_base::schedule::{Every, Schedule};
 use brazilnut_base::values::Values;
 use brazilnut_base::{Cell, Table, Tick};
@@ -25,13 +25,32 @@ pub struct Written {
     pub step: u64,
 }
 
+/// What ParaView reads: each where the run has it.
+struct AllSeries {
+    grains: Option<Series>,
+    fields: Option<Series>,
+}
+
+impl AllSeries {
+    fn open(
+        plan: &Plan,
+        open: impl Fn(&str, &str) -> Result<Series, StoreError>,
+    ) -> Result<Self, StoreError> {
+        Ok(Self {
+            grains: (!plan.start.is_empty()).then(|| open("grains", "vtp")).transpose()?,
+            fields: plan.flow().map(|_| open("fields", "vti")).transpose()?,
+        })
+    }
+}
+
 /// The open outputs of a run.
 pub struct Outputs {
     directory: Directory,
     tables: Vec<Option<TableFile>>,
-    grains: Series,
+    series: AllSeries,
     dump: Option<Dump>,
     frames: Schedule,
+    fields: Schedule,
     pictures: Vec<u64>,
     flows: Vec<u64>,
     palette: pictures::Palette,
@@ -45,7 +64,7 @@ impl Outputs {
     /// # Errors
     /// If something cannot be written.
     pub fn create(directory: &Directory, plan: &Plan, output: &Values) -> Result<Self, StoreError> {
-        for folder in [directory.tables(), directory.grains(), directory.pictures()] {
+        for folder in [directory.tables(), directory.pictures()] {
             atomic::make_folder(&folder)?;
         }
         let tables = plan.watches.iter().map(|w| {
@@ -56,9 +75,9 @@ impl Outputs {
             TableFile::create(&directory.tables().join(format!("{}.csv", w.name)), &columns).map(Some)
         });
         let tables = tables.collect::<Result<_, _>>()?;
-        let grains = Series::create(&directory.root, "grains", "vtp")?;
+        let series = AllSeries::open(plan, |name, kind| Series::create(&directory.root, name, kind))?;
         let dump = output.flag("dump").then(|| Dump::create(&directory.dump())).transpose()?;
-        Ok(Self::assemble(directory, plan, output, tables, grains, dump))
+        Ok(Self::assemble(directory, plan, output, tables, series, dump))
     }
 
     /// The outputs of an earlier part of the run, cut back to `written`.
@@ -79,14 +98,15 @@ impl Outputs {
             TableFile::resume(&directory.tables().join(format!("{}.csv", w.name)), &columns, length).map(Some)
         });
         let tables = tables.collect::<Result<_, _>>()?;
-        let grains = Series::resume(&directory.root, "grains", "vtp", written.step)?;
+        let series =
+            AllSeries::open(plan, |name, kind| Series::resume(&directory.root, name, kind, written.step))?;
         // A dump that was not asked for before starts here.
         let dump = match (output.flag("dump"), written.dump) {
             (false, _) => None,
             (true, 0) => Some(Dump::create(&directory.dump())?),
             (true, length) => Some(Dump::resume(&directory.dump(), length)?),
         };
-        Ok(Self::assemble(directory, plan, output, tables, grains, dump))
+        Ok(Self::assemble(directory, plan, output, tables, series, dump))
     }
 
     fn assemble(
@@ -94,14 +114,16 @@ impl Outputs {
         plan: &Plan,
         output: &Values,
         tables: Vec<Option<TableFile>>,
-        grains: Series,
+        series: AllSeries,
         dump: Option<Dump>,
     ) -> Self {
         let clock = &plan.clock;
-        let every = output.every_opt("frames").unwrap_or(Every::End);
-        let frames = Schedule::new(every, 0.0, clock.dt, clock.steps_per_cycle, clock.end)
-            .unwrap_or(Schedule { period: u64::MAX, offset: clock.end });
-        let n = output.integer("pictures").max(0) as u64;
+        let schedule = |key: &str| {
+            let every = output.every_opt(key).unwrap_or(Every::End);
+            Schedule::new(every, 0.0, clock.dt, clock.steps_per_cycle, clock.end)
+                .unwrap_or(Schedule { period: u64::MAX, offset: clock.end })
+        };
+        let n = if plan.start.is_empty() { 0 } else { output.integer("pictures").max(0) as u64 };
         let pictures = match n {
             0 => vec![],
             1 => vec![clock.end],
@@ -110,9 +132,10 @@ impl Outputs {
         Self {
             directory: directory.clone(),
             tables,
-            grains,
+            series,
             dump,
-            frames,
+            frames: schedule("frames"),
+            fields: schedule("fields"),
             flows: if pictures.is_empty() { vec![] } else { flow_pictures(plan, &pictures) },
             pictures,
             palette: pictures::Palette::new(plan),
@@ -133,7 +156,8 @@ impl Outputs {
     #[must_use]
     pub fn wants_grains(&self, tick: &Tick) -> bool {
         let due = |list: &[u64]| list.contains(&tick.index);
-        tick.index == 0 || self.frames.is_due(tick.index) || due(&self.pictures) || due(&self.flows)
+        self.series.grains.is_some()
+            && (tick.index == 0 || self.frames.is_due(tick.index) || due(&self.pictures) || due(&self.flows))
     }
 
     /// Writes the frame and the picture that are due at this boundary. The
@@ -167,8 +191,10 @@ impl Outputs {
                 radius: &grains.radius,
                 extra: &[],
             };
-            vtk::write_grains(&self.grains.frame(tick.index), &frame, vtk::Precision::Single)?;
-            self.grains.add(tick.index, tick.time)?;
+            if let Some(series) = &mut self.series.grains {
+                vtk::write_grains(&series.frame(tick.index), &frame, vtk::Precision::Single)?;
+                series.add(tick.index, tick.time)?;
+            }
             if let Some(dump) = &mut self.dump {
                 dump.append(&frame)?;
             }
@@ -180,13 +206,13 @@ impl Outputs {
             atomic::write(&stem.with_extension("txt"), caption.as_bytes())?;
         }
         match flow {
-            Some(flow) if self.flows.contains(&tick.index) => self.flow(tick, grains, flow, caption),
+            Some(flow) if self.flows.contains(&tick.index) => self.flow_picture(tick, grains, flow, caption),
             _ => Ok(()),
         }
     }
 
     /// The flow at this boundary: the bed cut open, and fluid and grains side by side.
-    fn flow(
+    fn flow_picture(
         &self,
         tick: &Tick,
         grains: &Grains,
@@ -200,6 +226,22 @@ impl Outputs {
         atomic::write(&stem.with_extension("txt"), text.as_bytes())?;
         let figures = self.palette.plane(&self.cell).figures(grains, flow, caption);
         atomic::write(&stem.with_extension("json"), &serde_json::to_vec(&figures).expect("plain data"))
+    }
+
+    /// Writes the flow, if there is one, for ParaView.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn flow(&mut self, tick: &Tick, flow: Option<&dyn FlowView>) -> Result<(), StoreError> {
+        let (Some(series), Some(flow)) = (&mut self.series.fields, flow) else { return Ok(()) };
+        fields::write(&series.frame(tick.index), tick.time, &self.cell, flow)?;
+        series.add(tick.index, tick.time)
+    }
+
+    /// Whether the flow is wanted at this boundary.
+    #[must_use]
+    pub fn wants_flow(&self, tick: &Tick) -> bool {
+        self.series.fields.is_some() && self.fields.is_due(tick.index)
     }
 
     /// Brings all to the disk and says what a checkpoint must remember.

@@ -1,6 +1,6 @@
 //! Pictures of the bed: grains keep the colour of the layer they started in.
 
-use crate::fields::Plane;
+use crate::plane::Plane;
 use brazilnut_base::{Cell, Vec3};
 use brazilnut_grains::Grains;
 use brazilnut_observe::FlowView;

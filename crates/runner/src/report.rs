@@ -68,6 +68,7 @@ const FILES: &str = "case.toml      the case with every default written out
 run.json       status, timings, energy ledger
 tables/*.csv   what the observers measured; pandas.read_csv(path, comment=\"#\")
 grains.pvd     the grains for ParaView: Glyph, sphere, scale by diameter, factor 1
+fields.pvd     the flow for ParaView, where there is one
 checkpoints/   to continue: brazilnut resume DIRECTORY";
 
 fn notices(status: &Status, sheet: &Sheet) -> Vec<Content> {
@@ -112,7 +113,8 @@ fn pictures(directory: &Directory, kind: &str) -> Result<Vec<Content>, StoreErro
 }
 
 fn energy(status: &Status) -> Vec<Content> {
-    if status.energy.is_empty() {
+    // The ledger is that of the grains.
+    if status.energy.is_empty() || status.grains == 0 {
         return vec![];
     }
     let rows = status.energy.iter().map(|(k, v)| vec![k.replace('_', " "), significant(*v, 6)]).collect();

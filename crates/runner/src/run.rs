@@ -329,6 +329,12 @@ impl<'a> Job<'a> {
             self.outputs.frame(&tick, grains, flow.as_ref().map(|f| f as &dyn FlowView), &caption)?;
             self.spent.writing += start.elapsed().as_secs_f64();
         }
+        if self.outputs.wants_flow(&tick) {
+            let start = Instant::now();
+            let Self { simulation, outputs, .. } = self;
+            outputs.flow(&tick, simulation.look().1.as_ref().map(|f| f as &dyn FlowView))?;
+            self.spent.writing += start.elapsed().as_secs_f64();
+        }
         Ok(())
     }
 

@@ -1,5 +1,6 @@
 //! The start-up sheet: every limit and number before anything runs.
 
+use crate::flow_sheet;
 use crate::progress::duration;
 use brazilnut_base::keys::Check;
 use brazilnut_case::build::{Built, Facts};
@@ -14,17 +15,25 @@ const SPEED: f64 = 2.0e7;
 #[must_use]
 pub fn sheet(title: &str, model: &str, built: &Built) -> Sheet {
     let mut s = Sheet::new(format!("{title}: {model}"));
-    bed(&mut s, built);
+    let grains = !built.plan.start.is_empty();
+    if grains {
+        bed(&mut s, built);
+    }
     shaker(&mut s, built);
     steps(&mut s, built);
-    fluid(&mut s, built);
-    coupling(&mut s, built);
-    cost(&mut s, built);
+    if grains {
+        fluid(&mut s, built);
+        coupling(&mut s, built);
+    }
+    flow_sheet::flow(&mut s, built);
+    if grains {
+        cost(&mut s, built);
+    }
     s
 }
 
 /// `x` with a unit that reads well, four digits.
-fn si(x: f64, unit: &str) -> String {
+pub(crate) fn si(x: f64, unit: &str) -> String {
     use brazilnut_report::text::{readable_unit, significant};
     if unit == "kg" && x.abs() < 0.1 {
         return format!("{} g", significant(1e3 * x, 4));
@@ -70,13 +79,11 @@ fn shaker(s: &mut Sheet, b: &Built) {
         "floor alone, laboratory frame"
     };
     s.row("frequency", si(frequency, "Hz"), moves);
-    s.row(
-        "displacement amplitude",
-        si(amplitude, "m"),
-        format!("{:.3} diameters", amplitude / b.facts.diameter),
-    );
+    let grains = !b.plan.start.is_empty();
+    let size = if grains { format!("{:.3} diameters", amplitude / b.facts.diameter) } else { String::new() };
+    s.row("displacement amplitude", si(amplitude, "m"), size);
     s.row("peak velocity", si(amplitude * w, "m/s"), "");
-    if g > 0.0 {
+    if g > 0.0 && grains {
         let gamma = amplitude * w * w / g;
         let off = if gamma > 1.0 {
             format!("take-off at {:.1} deg", (1.0 / gamma).asin().to_degrees())
@@ -93,9 +100,27 @@ fn shaker(s: &mut Sheet, b: &Built) {
 }
 
 fn steps(s: &mut Sheet, b: &Built) {
+    let clock = &b.plan.clock;
+    s.group("Time");
+    if b.plan.start.is_empty() {
+        s.row("step", si(clock.dt, "s"), "");
+    } else {
+        contacts(s, b);
+    }
+    if let Some(n) = clock.steps_per_cycle {
+        s.row("steps per cycle", n.to_string(), "shaker period / step");
+    }
+    let cycles = clock.steps_per_cycle.map(|n| format!("{:.1} cycles", clock.end as f64 / n as f64));
+    s.row("steps", clock.end.to_string(), cycles.unwrap_or_default());
+    s.row("end", si(clock.end as f64 * clock.dt, "s"), "");
+    if !b.plan.start.is_empty() {
+        settling(s, b);
+    }
+}
+
+fn contacts(s: &mut Sheet, b: &Built) {
     let (clock, f) = (&b.plan.clock, &b.facts);
     let grain = clock.grain_dt();
-    s.group("Time");
     let at = format!("shortest, at {}", si(f.speed, "m/s"));
     s.row("contact time", si(f.contact_time, "s"), at);
     s.row("grain step", si(grain, "s"), format!("{:.1} steps per contact", f.contact_time / grain));
@@ -114,12 +139,10 @@ fn steps(s: &mut Sheet, b: &Built) {
     if let Some(t) = f.rayleigh_time {
         s.row("Rayleigh time", si(t, "s"), format!("step / Rayleigh time {:.3}", grain / t));
     }
-    if let Some(n) = clock.steps_per_cycle {
-        s.row("steps per cycle", n.to_string(), "shaker period / step");
-    }
-    let cycles = clock.steps_per_cycle.map(|n| format!("{:.1} cycles", clock.end as f64 / n as f64));
-    s.row("steps", clock.end.to_string(), cycles.unwrap_or_default());
-    s.row("end", si(clock.end as f64 * clock.dt, "s"), "");
+}
+
+fn settling(s: &mut Sheet, b: &Built) {
+    let f = &b.facts;
     let settle = match b.plan.settle {
         Settle::None => "none".to_string(),
         Settle::For(t) => si(t, "s"),

@@ -1,14 +1,19 @@
 //! The flow on its grid as observers see it.
 
-use brazilnut_base::{Side, Vec3};
+use brazilnut_base::{PlaneField, Side, Vec3};
 use brazilnut_coupling::one_way::LocalPorosity;
-use brazilnut_fluid::{Flow, Grid};
-use brazilnut_observe::FlowView;
+use brazilnut_fluid::{Flow, Grid, Solver, diagnose};
+use brazilnut_observe::{FlowBalance, FlowView};
 
 /// A flow between two steps.
 pub(crate) struct Seen<'a> {
     pub flow: &'a Flow,
     pub grid: &'a Grid,
+    pub solver: &'a Solver,
+    /// The uniform acceleration, m/s².
+    pub body: Vec3,
+    /// Grains share the flow.
+    pub shared: bool,
     /// Grains are larger than grid cells.
     pub resolved: bool,
     /// Porosity of an unresolved coupling.
@@ -22,6 +27,12 @@ fn between(x: f64, highest: isize) -> (isize, f64) {
 }
 
 impl Seen<'_> {
+    /// The axes of the plane of a flow in two dimensions.
+    fn plane(&self) -> Option<[usize; 2]> {
+        let flat = self.grid.sides.iter().position(|s| *s == Side::Flat)?;
+        Some([[1, 2], [0, 2], [0, 1]][flat])
+    }
+
     /// Trilinear interpolation of a field whose point (0, 0, 0) lies `shift` spacings from the corner.
     fn interpolate(&self, r: Vec3, shift: Vec3, at: impl Fn(isize, isize, isize) -> f64) -> f64 {
         let g = self.grid;
@@ -72,5 +83,28 @@ impl FlowView for Seen<'_> {
 
     fn centre(&self, cell: [usize; 3]) -> Vec3 {
         self.grid.cell_center(cell[0] as isize, cell[1] as isize, cell[2] as isize)
+    }
+
+    fn streamfunction(&self) -> Option<PlaneField> {
+        Some(diagnose::streamfunction(self.grid, &self.flow.velocity, self.plane()?, 0))
+    }
+
+    fn vorticity(&self) -> Option<PlaneField> {
+        Some(diagnose::vorticity(self.grid, &self.flow.velocity, self.plane()?, 0))
+    }
+
+    fn balance(&self, dt: f64) -> FlowBalance {
+        let spec = self.solver.spec();
+        let known = !self.shared && spec.solids.is_empty() && spec.open_axis().is_none();
+        let b = diagnose::budget(self.solver, self.flow, self.body);
+        let only = |x: f64| if known { x } else { f64::NAN };
+        FlowBalance {
+            kinetic: b.kinetic,
+            dissipation: only(b.dissipation),
+            walls: only(b.walls),
+            body: only(b.body),
+            divergence: diagnose::divergence(self.grid, &self.flow.velocity),
+            courant: diagnose::courant(self.grid, self.flow, dt),
+        }
     }
 }

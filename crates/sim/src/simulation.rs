@@ -10,7 +10,7 @@ use brazilnut_base::parallel::sum;
 use brazilnut_base::{Blowup, Cell, Tick, Vec3};
 use brazilnut_coupling::one_way::LocalPorosity;
 use brazilnut_coupling::{Coupling, CouplingSpec};
-use brazilnut_fluid::Solver;
+use brazilnut_fluid::{Flow, Solver};
 use brazilnut_grains::{ContactView, Dem, DemSpec, Grains, Ledger, Partner, SpecError};
 use brazilnut_observe::{ContactAt, FlowView, FluidAt, View, WallAt};
 
@@ -336,15 +336,11 @@ impl Simulation {
             }
             _ => {}
         }
-        let resolved = is_resolved(plan);
         if needs.flow {
             map_porosity(plan, solver.as_ref(), &scratch.grains, &mut scratch.porosity);
         }
         let porosity = porosity.as_ref().or(scratch.porosity.as_ref());
-        let seen = match (solver, flow) {
-            (Some(s), Some(flow)) => Some(Seen { flow, grid: s.grid(), resolved, porosity }),
-            _ => None,
-        };
+        let seen = seen(plan, solver.as_ref(), flow.as_ref(), porosity, tick.time);
         let ledger = view::ledger(&view::since(&dem.ledger(grains), before));
         let walls: Vec<WallAt> = plan
             .dem
@@ -405,31 +401,30 @@ impl Simulation {
         &self.scratch.grains
     }
 
-    /// The grains and, where there is one, the flow now: for pictures.
+    /// The grains and, where there is one, the flow now: for pictures and frames.
     pub fn look(&mut self) -> (&Grains, Option<impl FlowView + '_>) {
-        let Self { state, engines, scratch, plan, .. } = self;
-        engines.dem.export(&state.dem, &mut scratch.grains);
-        let flow = match (&engines.solver, &state.flow) {
-            (Some(s), Some(flow)) => {
-                Some(Seen { flow, grid: s.grid(), resolved: is_resolved(plan), porosity: None })
-            }
-            _ => None,
-        };
-        (&scratch.grains, flow)
+        let time = self.tick().time;
+        let Self { plan, state, engines: Engines { dem, solver, .. }, scratch } = self;
+        dem.export(&state.dem, &mut scratch.grains);
+        map_porosity(plan, solver.as_ref(), &scratch.grains, &mut scratch.porosity);
+        let porosity = state.porosity.as_ref().or(scratch.porosity.as_ref());
+        (&scratch.grains, seen(plan, solver.as_ref(), state.flow.as_ref(), porosity, time))
     }
+}
 
-    /// The energy ledger since time 0 (since the start while settling).
-    #[must_use]
-    pub fn ledger(&self) -> Ledger {
-        view::since(&self.engines.dem.ledger(&self.state.dem), &self.state.before)
-    }
-
-    /// Root-mean-square speed of the grains, m/s.
-    fn rms_speed(&mut self) -> f64 {
-        let grains = self.grains();
-        let sum = sum(grains.velocity.iter().map(|v| v.length_squared()));
-        (sum / grains.len().max(1) as f64).sqrt()
-    }
+/// The flow as observers see it.
+fn seen<'a>(
+    plan: &Plan,
+    solver: Option<&'a Solver>,
+    flow: Option<&'a Flow>,
+    porosity: Option<&'a LocalPorosity>,
+    time: f64,
+) -> Option<Seen<'a>> {
+    let resolved = is_resolved(plan);
+    let (flow, solver) = (flow?, solver?);
+    let body = step::still(plan, time).modified_gravity();
+    let shared = matches!(plan.medium, Medium::Coupled(..));
+    Some(Seen { flow, grid: solver.grid(), solver, body, shared, resolved, porosity })
 }
 
 /// A contact of the engine as observers see it.

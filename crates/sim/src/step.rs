@@ -72,8 +72,12 @@ fn simple_drag(
 /// A flow without grains.
 fn fluid(plan: &Plan, engines: &mut Engines, state: &mut State, tick: Tick) {
     let (Some(solver), Some(flow)) = (&mut engines.solver, &mut state.flow) else { return };
-    let body = still(plan, tick.time).modified_gravity();
-    solver.advance(flow, tick, body, &brazilnut_fluid::Medium::default(), |_| ());
+    let parts = solver.substeps(flow, tick.dt);
+    for k in 0..parts {
+        let part = tick.substep(k, parts);
+        let body = still(plan, part.time).modified_gravity();
+        solver.advance(flow, part, body, &brazilnut_fluid::Medium::default(), |_| ());
+    }
 }
 
 /// Grains and flow.

@@ -7,6 +7,7 @@
 
 mod clement_cylinder_drag;
 mod clement_falling_cylinder;
+mod clement_cavity;
 mod clement_fig_2_4_to_2_7;
 mod clement_fig_4_1_to_4_3;
 mod clement_fig_5_17;

@@ -8,6 +8,8 @@ use crate::{
     clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11, clement_heap,
     clement_modified_kroll_peaks, clement_thrown_bed, clement_tilt, lan_kinetic_theory, lan_self_diffusion,
     lan_stiffness,
+    clement_cavity, clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11,
+    clement_modified_kroll_peaks, lan_kinetic_theory, lan_self_diffusion, lan_stiffness,
 };
 
 /// A study whose folder and id agree.
@@ -35,6 +37,7 @@ pub const MENU: &[Study] = &[
         "A falling cylinder: springs, resolution, walls (Clément 2009)",
         clement_falling_cylinder::run
     ),
+    study!("clement-cavity", "Flow in a cavity driven by its lid (Clément 2009)", clement_cavity::run),
     study!("clement-fig-2-4-to-2-7", "Two steel spheres under three contact laws (Clément 2009)", |r| Ok(
         clement_fig_2_4_to_2_7::run(r.quick).into()
     )),

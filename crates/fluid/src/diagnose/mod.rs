@@ -5,7 +5,7 @@ mod plane;
 mod point;
 
 pub use energy::{Budget, budget, kinetic_energy};
-pub use plane::{Sheet, extremum, streamfunction, vorticity};
+pub use plane::{streamfunction, vorticity};
 pub use point::{pressure_at, velocity_at};
 
 use crate::field::Faces;

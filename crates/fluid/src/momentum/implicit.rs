@@ -219,8 +219,8 @@ impl Kernel for InPlanes<'_> {
         let Some(ends) = system.ends else { return };
         let lines = Lines { n: system.count, ends };
         let pitch = system.count.next_multiple_of(8);
-        let mut scratch = Scratch::take(W * pitch + lines.scratch(W));
-        let (rows, scratch) = scratch.as_mut().split_at_mut(W * pitch);
+        let mut memory = Scratch::take(W * pitch + lines.scratch(W));
+        let (rows, scratch) = memory.as_mut().split_at_mut(W * pitch);
         let count = shape.n[1] * (planes.len() / shape.plane);
         let at = |row: usize| {
             let (k, j) = (row / shape.n[1], row % shape.n[1]);
@@ -239,6 +239,8 @@ impl Kernel for InPlanes<'_> {
                 planes[at(row)..][..system.count].copy_from_slice(&out[..system.count]);
             }
         }
+        // The rows below borrow it again.
+        drop(memory);
         if shape.stride[1] != 0 {
             for plane in planes.chunks_exact_mut(shape.plane) {
                 let interior = &mut plane[shape.ghosts(1) * shape.stride[1]..];

@@ -50,10 +50,17 @@ fn factors(mut n: usize) -> Vec<usize> {
             f.push(r);
         }
     };
-    for r in [5, 3, 7, 11, 13, 4, 2] {
+    for r in [5, 3, 7, 11, 13] {
         take(&mut n, r);
     }
-    debug_assert_eq!(n, 1, "a prime factor is too large");
+    debug_assert!(n.is_power_of_two(), "a prime factor is too large");
+    // As few passes as there can be: two fours where eights alone would leave a two.
+    let twos = n.trailing_zeros() as usize;
+    let fours = if twos == 1 { 0 } else { [0, 2, 1][twos % 3] };
+    let eights = (twos - 2 * fours) / 3;
+    f.extend(std::iter::repeat_n(8, eights));
+    f.extend(std::iter::repeat_n(4, fours));
+    f.extend(std::iter::repeat_n(2, twos - 3 * eights - 2 * fours));
     f
 }
 
@@ -66,8 +73,11 @@ impl Plan {
         for &radix in &radices {
             let size = part * radix;
             let twiddles = (0..part).flat_map(|j| (1..radix).map(move |p| root(p * j, size))).collect();
-            let roots =
-                if matches!(radix, 2..=5) { vec![] } else { (0..radix).map(|q| root(q, radix)).collect() };
+            let roots = if matches!(radix, 2..=5 | 8) {
+                vec![]
+            } else {
+                (0..radix).map(|q| root(q, radix)).collect()
+            };
             stages.push(Stage { radix, part, twiddles, roots });
             part = size;
         }
@@ -101,6 +111,7 @@ impl Kernel for Butterflies<'_> {
                 3 => pass3(lanes, z, s),
                 4 => pass4(lanes, z, s),
                 5 => pass5(lanes, z, s),
+                8 => pass8(lanes, z, s),
                 _ => pass_odd(lanes, z, s),
             }
         }
@@ -218,6 +229,47 @@ fn butterfly4<const W: usize, const F: bool>(l: Lanes<W, F>, x: [Complex<W>; 4])
 }
 
 #[inline(always)]
+fn pass8<const W: usize, const F: bool>(l: Lanes<W, F>, z: &mut [Complex<W>], s: &Stage) {
+    if s.part == 1 {
+        for block in z.as_chunks_mut::<8>().0 {
+            *block = butterfly8(l, *block);
+        }
+        return;
+    }
+    for block in z.chunks_exact_mut(8 * s.part) {
+        let mut legs = parts::<8, _>(block, s.part);
+        for (j, w) in s.twiddles.as_chunks::<7>().0.iter().enumerate() {
+            let leg = |p: usize| if p == 0 { legs[0][j] } else { turned(l, legs[p][j], w[p - 1]) };
+            let y = butterfly8(l, std::array::from_fn(leg));
+            for (leg, y) in legs.iter_mut().zip(y) {
+                leg[j] = y;
+            }
+        }
+    }
+}
+
+/// Two of four, the odd one turned by eighths.
+#[inline(always)]
+fn butterfly8<const W: usize, const F: bool>(l: Lanes<W, F>, x: [Complex<W>; 8]) -> [Complex<W>; 8] {
+    let e = butterfly4(l, [x[0], x[2], x[4], x[6]]);
+    let o = butterfly4(l, [x[1], x[3], x[5], x[7]]);
+    let h = 0.5_f64.sqrt();
+    // o_1 (1 - i) / sqrt(2) and o_3 (1 + i) / sqrt(2).
+    let first = scaled(l, h, [l.add(o[1][0], o[1][1]), l.sub(o[1][1], o[1][0])]);
+    let third = scaled(l, h, [l.sub(o[3][0], o[3][1]), l.add(o[3][0], o[3][1])]);
+    [
+        add(l, e[0], o[0]),
+        add(l, e[1], first),
+        minus_i(l, e[2], o[2]),
+        sub(l, e[3], third),
+        sub(l, e[0], o[0]),
+        sub(l, e[1], first),
+        plus_i(l, e[2], o[2]),
+        add(l, e[3], third),
+    ]
+}
+
+#[inline(always)]
 fn pass5<const W: usize, const F: bool>(l: Lanes<W, F>, z: &mut [Complex<W>], s: &Stage) {
     let [c1, s1] = root(1, 5);
     let [c2, s2] = root(2, 5);
@@ -318,7 +370,10 @@ mod tests {
     #[test]
     fn agrees_with_the_library() {
         for path in [Path::choose(Instructions::Best), Path::choose(Instructions::Portable)] {
-            for n in [1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 16, 20, 35, 45, 77, 100, 117, 128, 143, 180, 243, 250] {
+            for n in [
+                1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 16, 20, 24, 32, 35, 45, 64, 77, 96, 100, 117, 128, 143, 180,
+                200, 243, 250, 256, 512,
+            ] {
                 dispatch(path, Check(n));
             }
         }

@@ -14,7 +14,7 @@ use super::rows::{Block, Cut, Plane, Rows, Slab, for_each_slab};
 use super::transform::{Family, Transform, eigenvalue};
 use super::tridiagonal::{End, Lines, remove_mean, solve_closed_singular};
 use crate::grid::{Grid, largest_prime};
-use crate::lanes::{Kernel, Lanes, Path, dispatch};
+use crate::lanes::{Kernel, Lanes, Path, dispatch, prefetch};
 use crate::parallel::{Scratch, WORTH_THREADS};
 use crate::spec::Instructions;
 use brazilnut_base::Side;
@@ -137,23 +137,6 @@ impl Poisson {
         self.each_plane(&mut data[..n * self.block.plane], Direction::Inverse);
     }
 
-    #[cfg(test)]
-    pub(crate) fn stage(&self, data: &mut [f64], stage: usize) {
-        let n = self.cells[2] * self.block.plane;
-        match stage {
-            0 => self.each_plane(&mut data[..n], Direction::Forward),
-            1 | 3 => {
-                let d = if stage == 1 { Direction::Forward } else { Direction::Inverse };
-                for_each_slab(data, self.block, Cut::Row, self.parallel, |s, slab| {
-                    dispatch(self.path, SlabKernel { poisson: self, s, slab, what: Part::Transform(d) });
-                });
-            }
-            _ => for_each_slab(data, self.block, Cut::Row, self.parallel, |s, slab| {
-                dispatch(self.path, SlabKernel { poisson: self, s, slab, what: Part::Lines });
-            }),
-        }
-    }
-
     fn each_plane(&self, data: &mut [f64], direction: Direction) {
         use rayon::prelude::*;
         let work = |plane: &mut [f64]| dispatch(self.path, PlaneKernel { poisson: self, plane, direction });
@@ -261,6 +244,11 @@ fn transform<const W: usize, const F: bool>(
             let mut column = 0;
             while column < width {
                 let half = column + 2 * W > width;
+                // Columns are far apart in memory: no processor guesses which come next.
+                for r in 0..t.length {
+                    let row = rows.row(r);
+                    prefetch(&row[(column + 2 * W).min(width)..(column + 4 * W).min(width)]);
+                }
                 match direction {
                     Direction::Forward => t.forward(l, rows, column, half, z),
                     Direction::Inverse => t.inverse(l, rows, column, half, z),

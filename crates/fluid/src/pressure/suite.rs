@@ -101,34 +101,3 @@ fn open_ends_are_held_at_zero() {
         assert!(worst < 1e-13, "{worst}");
     }
 }
-
-#[test]
-#[ignore]
-fn stage_times() {
-    use std::time::Instant;
-    for n in [64_usize, 96, 100, 128, 120] {
-        let grid = Grid::new([n; 3], [1.0; 3], [Side::Walls; 3]);
-        for ins in [Instructions::Best, Instructions::Portable] {
-            let p = Poisson::new(&grid, [false; 2], ins, Transforms::Best);
-            let mut data = vec![0.0; p.len()];
-            let mut best = [f64::MAX; 4];
-            let c = grid.count() as f64;
-            for rep in 0..100 {
-                for (i, x) in data.iter_mut().enumerate() {
-                    *x = ((i * 7919 + rep) % 1013) as f64 - 506.0;
-                }
-                let t: Vec<f64> = (0..4)
-                    .map(|s| {
-                        let t = Instant::now();
-                        p.stage(&mut data, s);
-                        t.elapsed().as_secs_f64() * 1e9 / c
-                    })
-                    .collect();
-                for s in 0..4 {
-                    best[s] = best[s].min(t[s]);
-                }
-            }
-            println!("{n} {ins:?} {best:.2?} sum {:.2}", best.iter().sum::<f64>());
-        }
-    }
-}

@@ -99,4 +99,7 @@ observers! {
     BasePressure = base_pressure,
     Flow = flow,
     FlowField = flow_field,
+    FlowEnergy = flow_energy,
+    Probe = probe,
+    Streamfunction = streamfunction,
 }
