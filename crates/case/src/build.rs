@@ -4,15 +4,14 @@ use crate::case::Case;
 use crate::clock::clock;
 use crate::contact::{self, Body};
 use crate::issue::Issues;
-use crate::{check, coupling, parts};
+use crate::{check, coupling, parts, walls};
 use brazilnut_base::values::Values;
 use brazilnut_base::{Cell, Side, Vec3};
 use brazilnut_coupling::sheet::Sheet;
 use brazilnut_grains::contact::{NormalLaw, RollingLaw, TangentialLaw};
 use brazilnut_grains::packing::{self, Filling, Placement, Region, Shape, Sizes};
 use brazilnut_grains::{
-    Arrangement, ContactSpec, DemSpec, Grains, Integrator, Limits, Material, PairSpec, PairTable, Search,
-    WallShape, WallSpec,
+    ContactSpec, DemSpec, Grains, Integrator, Limits, Material, PairSpec, PairTable, Search, WallSpec,
 };
 use brazilnut_observe::{Setting, Watch};
 use brazilnut_sim::clock::Clock;
@@ -75,7 +74,7 @@ pub fn build(case: &Case) -> Result<Built, Issues> {
     let Some(contact) = contact::read(v, &materials, &mut issues) else { return Err(issues.sorted()) };
     let start = place(case, &cell, &materials, &mut issues);
     let Some(start) = start else { return Err(issues.sorted()) };
-    let walls = walls(v, &cell, &materials);
+    let walls = walls::walls(v, &cell, &materials);
     let species = species(v, &start);
     let medium = medium(v, &cell, &species, &mut issues);
     let mut facts = facts(v, &cell, &materials, &contact, &start, medium.as_ref(), &mut issues);
@@ -101,7 +100,7 @@ pub fn build(case: &Case) -> Result<Built, Issues> {
         limits: Limits { overlap: v.table_opt("limits").map_or(0.3, |l| l.number("overlap")) },
         search: Search::default(),
     };
-    let settling_walls = obstacles(v, &dem.materials, true);
+    let settling_walls = walls::obstacles(v, &dem.materials, true);
     let watches = watches(v, &cell, &clock, &species, &walls, &facts, &mut issues);
     let settle = settle(v, facts.diameter);
     let shaken = match v.table_opt("shaking").map(|s| s.text("of")) {
@@ -244,7 +243,7 @@ fn place(case: &Case, cell: &Cell, materials: &[Material], issues: &mut Issues) 
     let filling = Filling {
         shape,
         solids: solids.collect(),
-        room: room(v, cell),
+        room: walls::room(v, cell),
         ..Filling::new(*cell, species, v.integer("seed") as u64)
     };
     let start = v.table_opt("start")?;
@@ -296,77 +295,6 @@ fn region(g: &Values, cell: &Cell) -> Option<Region> {
     Some(Region { low: low.unwrap_or(Vec3::ZERO), high: high.unwrap_or(cell.size) })
 }
 
-/// The part of the cell above a bumpy floor.
-fn room(v: &Values, cell: &Cell) -> Region {
-    let mut low = Vec3::ZERO;
-    if let Some((_, radius)) = bumps(v) {
-        low.z = radius;
-    }
-    Region { low, high: cell.size }
-}
-
-/// Arrangement and radius of the bumps of the floor.
-fn bumps(v: &Values) -> Option<(Arrangement, f64)> {
-    let floor = v.table_opt("walls")?.table_opt("floor")?;
-    let arrangement = match floor.text("surface") {
-        "bumpy-square" => Arrangement::Square,
-        "bumpy-triangular" => Arrangement::Triangular,
-        _ => return None,
-    };
-    let diameter = floor.number_opt("bump_diameter").or_else(|| {
-        let g = v.tables("grains").next()?;
-        let [a, b] = Sizes::read(g.table_opt("diameter")?).ok()?.range();
-        Some(0.5 * (a + b))
-    })?;
-    Some((arrangement, 0.5 * diameter))
-}
-
-/// The walls of the cell's sides and the lasting obstacles.
-fn walls(v: &Values, cell: &Cell, materials: &[Material]) -> Vec<WallSpec> {
-    let index = |name: &str| materials.iter().position(|m| m.name == name).unwrap_or(0) as u16;
-    let names = parts::side_materials(v);
-    let shaking = parts::shaking(v);
-    let floor_alone = v.table_opt("shaking").is_some_and(|s| s.text("of") == "floor");
-    let mut walls = vec![];
-    for (k, side) in parts::SIDES.iter().enumerate() {
-        let axis = k / 2;
-        if cell.sides[axis] != Side::Walls {
-            continue;
-        }
-        let mut normal = Vec3::ZERO;
-        normal[axis] = if k % 2 == 0 { 1.0 } else { -1.0 };
-        let mut point = Vec3::ZERO;
-        point[axis] = if k % 2 == 0 { 0.0 } else { cell.size[axis] };
-        let shape = match (*side, bumps(v)) {
-            ("floor", Some((arrangement, radius))) => {
-                WallShape::Bumps { axis: 2, at: 0.0, radius, spacing: 2.0 * radius, arrangement }
-            }
-            _ => WallShape::Plane { point, normal },
-        };
-        let motion = if floor_alone && *side == "floor" { shaking.clone() } else { Default::default() };
-        walls.push(WallSpec { name: (*side).to_string(), shape, material: index(&names[k]), motion });
-    }
-    walls.extend(obstacles(v, materials, false));
-    walls
-}
-
-/// Obstacles that last (`until_settled` false) or are taken away after settling.
-fn obstacles(v: &Values, materials: &[Material], until_settled: bool) -> Vec<WallSpec> {
-    let general = v.table_opt("walls").map_or("wall", |w| w.text("material"));
-    v.tables("obstacles")
-        .filter(|o| o.flag("until_settled") == until_settled)
-        .filter_map(|o| {
-            let material = o.text_opt("material").unwrap_or(general);
-            Some(WallSpec {
-                name: o.text("name").to_string(),
-                shape: WallShape::Box { low: o.vector_opt("from")?, high: o.vector_opt("to")? },
-                material: materials.iter().position(|m| m.name == material).unwrap_or(0) as u16,
-                motion: Default::default(),
-            })
-        })
-        .collect()
-}
-
 /// Contact times over all pairs of the smallest grains of each species, and walls.
 fn facts(
     v: &Values,
@@ -399,7 +327,7 @@ fn facts(
     let shake = parts::fundamental(v);
     // The fall through the cell is the fastest motion before the shaking, twice the peak speed after.
     let fall = (2.0 * v.number("gravity") * cell.size.z).sqrt();
-    let thrown = 2.0 * parts::shaking(v).peak_speed();
+    let thrown = 2.0 * parts::peak_speed(v);
     let own = grains.velocity.iter().map(|u| u.length()).fold(0.0, f64::max);
     let speed = if thrown > 0.0 { thrown.max(own) } else { fall.max(own) }.max(1e-3);
     let mut f = Facts { contact_time: f64::INFINITY, speed, shake, ..Facts::default() };
@@ -442,7 +370,7 @@ fn facts(
     // Fluid drawn under a thrown bed moves as fast as the bed, a few times faster in gaps.
     let settling =
         (2.0 * v.number("gravity") * 2.0 * grains.radius.iter().copied().fold(0.0, f64::max)).sqrt();
-    let estimate = parts::shaking(v).peak_speed().max(settling).max(own);
+    let estimate = parts::peak_speed(v).max(settling).max(own);
     f.flow_speed = crate::fluid::largest_speed(v).unwrap_or(estimate);
     f.mass = grains.mass.iter().sum();
     f.volume = grains.radius.iter().map(|&r| packing::occupied(r, cell)).sum();

@@ -2,6 +2,7 @@
 
 use crate::case::Case;
 use crate::issue::Issues;
+use crate::{parts, walls};
 use brazilnut_base::values::Values;
 
 /// Whether a rung moves grains.
@@ -29,25 +30,50 @@ pub fn is_analytical(model: &str) -> bool {
 pub fn check(case: &Case, issues: &mut Issues) {
     let v = &case.values;
     let Some(model) = v.text_opt("model") else { return };
-    shaking(v, issues);
+    motions(v, model, issues);
     tables(v, model, issues);
     cell(v, issues);
+    sides(v, issues);
     grains(v, model, issues);
     materials(v, model, issues);
     time(v, model, issues);
     observers(v, issues);
 }
 
-/// Exactly one measure of how hard, and gravity where it is needed.
-fn shaking(v: &Values, issues: &mut Issues) {
-    let Some(s) = v.table_opt("shaking") else { return };
+/// The shaker and what moves on its own.
+fn motions(v: &Values, model: &str, issues: &mut Issues) {
+    if let Some(s) = v.table_opt("shaking") {
+        strength(v, s, "shaking", issues);
+    }
+    for (path, m) in parts::own_motions(v) {
+        strength(v, m, &path, issues);
+    }
+    if !has_flow(model) {
+        return;
+    }
+    // The grid of the fluid stands still in the cell.
+    let moving = v.table_opt("shaking").filter(|_| parts::shakes_the_floor(v)).and_then(|s| s.span("of"));
+    for span in
+        moving.into_iter().chain(parts::own_motions(v).into_iter().filter_map(|(_, m)| m.span.clone()))
+    {
+        issues.add(
+            Some(span),
+            "a wall that moves on its own needs a dry bed",
+            format!("the fluid of \"{model}\" does not see it move"),
+            "shake the whole cell, or take `dry` or `simple-drag`",
+        );
+    }
+}
+
+/// Exactly one measure of how hard, and gravity where it is needed; `path` leads to the table `s`.
+fn strength(v: &Values, s: &Values, path: &str, issues: &mut Issues) {
     let ways = ["gamma", "displacement_amplitude", "peak_velocity"];
     let given: Vec<&str> = ways.into_iter().filter(|w| s.has(w)).collect();
     match given.as_slice() {
-        [] if ways.iter().any(|w| issues.is_broken(&format!("shaking.{w}"))) => {}
+        [] if ways.iter().any(|w| issues.is_broken(&format!("{path}.{w}"))) => {}
         [] => issues.add(
             s.span.clone(),
-            "`shaking` does not say how hard",
+            format!("`{path}` does not say how hard"),
             "one of `gamma`, `displacement_amplitude`, `peak_velocity` is needed",
             "add `gamma = 2.0`",
         ),
@@ -65,7 +91,7 @@ fn shaking(v: &Values, issues: &mut Issues) {
             for other in others {
                 issues.add(
                     s.span(other),
-                    "the shaking is over-determined",
+                    format!("`{path}` is over-determined"),
                     format!("`{first}` says how hard already"),
                     format!(
                         "keep one of {}",
@@ -117,6 +143,49 @@ fn cell(v: &Values, issues: &mut Issues) {
     let Some(c) = v.table_opt("cell") else { return };
     if c.text_opt("x") == Some("flat") && c.text_opt("y") == Some("flat") {
         issues.add(c.span("y"), "only one direction may be flat", "x is flat already", "");
+    }
+}
+
+/// What is said of a side must be about a wall, and bumps must hold the grains.
+fn sides(v: &Values, issues: &mut Issues) {
+    let smallest = v
+        .tables("grains")
+        .filter_map(|g| brazilnut_grains::packing::Sizes::read(g.table_opt("diameter")?).ok())
+        .map(|s| s.range()[0])
+        .fold(f64::INFINITY, f64::min);
+    let bounds = |axis: &str| v.table_opt("cell").and_then(|c| c.text_opt(axis));
+    // Bumps of a two-dimensional cell stand in a row without a hole.
+    let flat = ["x", "y"].into_iter().any(|axis| bounds(axis) == Some("flat"));
+    for (k, side) in parts::SIDES.iter().enumerate() {
+        let Some(table) = walls::side_table(v, side) else { continue };
+        let axis = ["x", "y", "z"][k / 2];
+        if let Some(bounds) = bounds(axis).filter(|b| *b != "walls") {
+            issues.add(
+                v.table_opt("walls").and_then(|w| w.span(side)),
+                format!("there is no wall `{side}`"),
+                format!("the cell is {bounds} along {axis}"),
+                "drop it, or give the cell walls there",
+            );
+        }
+        if *side == "floor" && table.has("motion") && parts::shakes_the_floor(v) {
+            issues.add(
+                table.span("motion"),
+                "the floor has two motions",
+                "`shaking` moves the floor already",
+                "keep one of them",
+            );
+        }
+        if let Some((arrangement, radius)) = walls::bumps(v, side).filter(|_| !flat) {
+            let hole = 2.0 * radius * walls::hole(arrangement);
+            if smallest <= hole {
+                issues.add(
+                    table.span("bump_diameter").or_else(|| table.span("surface")),
+                    format!("grains fall through the wall `{side}`"),
+                    format!("a sphere of {hole:.3e} m passes between its bumps, the smallest grain has {smallest:.3e} m"),
+                    "make the bumps smaller",
+                );
+            }
+        }
     }
 }
 

@@ -34,14 +34,8 @@ const HARMONIC: &[Key] = &[
     Key::default("phase", Kind::Quantity(D::NONE), "0.0", "Phase angle (a bare number is in radians)."),
 ];
 
-/// `[shaking]`
-pub const SHAKING: &[Key] = &[
-    Key::default(
-        "of",
-        Kind::Word(&["cell", "floor"]),
-        "\"cell\"",
-        "What moves: the whole cell (computed in its frame), or the floor alone in the laboratory frame.",
-    ),
+/// How something moves: the shaker, a single wall.
+const MOTION: [Key; 8] = [
     Key::required("frequency", Kind::Quantity(D::FREQUENCY), "Shaking frequency.").with(POSITIVE),
     Key::optional(
         "gamma",
@@ -77,6 +71,23 @@ pub const SHAKING: &[Key] = &[
         .with(NON_NEGATIVE),
     Key::optional("harmonics", Kind::Tables(HARMONIC), "Further harmonics of a periodic shake."),
 ];
+
+/// `[shaking]`
+pub const SHAKING: &[Key] = &{
+    let of = Key::default(
+        "of",
+        Kind::Word(&["cell", "floor"]),
+        "\"cell\"",
+        "What moves: the whole cell (computed in its frame), or the floor alone in the laboratory frame.",
+    );
+    let mut keys = [of; 9];
+    let mut k = 0;
+    while k < MOTION.len() {
+        keys[k + 1] = MOTION[k];
+        k += 1;
+    }
+    keys
+};
 
 /// `[[grains]]`
 pub const GRAINS: &[Key] = &[
@@ -217,6 +228,11 @@ const WALL: &[Key] = &[
         "Diameter of the half spheres; the mean grain diameter by default.",
     )
     .with(POSITIVE),
+    Key::optional(
+        "motion",
+        Kind::Table { keys: &MOTION, shorthand: None },
+        "How this wall moves on its own, seen from the cell; it starts when the bed has settled.",
+    ),
 ];
 
 /// `[walls]`
@@ -253,6 +269,11 @@ pub const OBSTACLE: &[Key] = &[
     Key::required("from", Kind::Vector(D::LENGTH), "Lower corner of the solid box."),
     Key::required("to", Kind::Vector(D::LENGTH), "Upper corner of the solid box."),
     Key::optional("material", Kind::Text, "Its material; that of the walls by default."),
+    Key::optional(
+        "motion",
+        Kind::Table { keys: &MOTION, shorthand: None },
+        "How it moves on its own, seen from the cell; it starts when the bed has settled.",
+    ),
     Key::default(
         "until_settled",
         Kind::Flag,

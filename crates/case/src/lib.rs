@@ -21,6 +21,7 @@ pub mod read;
 pub mod resolved;
 pub mod schema;
 pub mod source;
+mod walls;
 
 pub use case::Case;
 pub use issue::{Issue, Issues};

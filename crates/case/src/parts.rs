@@ -29,13 +29,24 @@ pub fn gravity(v: &Values) -> Vec3 {
 /// The motion of the shaker; at rest without a table `shaking`.
 #[must_use]
 pub fn shaking(v: &Values) -> Motion {
-    let Some(s) = v.table_opt("shaking") else { return Motion::default() };
+    v.table_opt("shaking").map_or_else(Motion::default, |s| motion(s, v.number("gravity")))
+}
+
+/// Whether the shaker moves the floor alone.
+#[must_use]
+pub fn shakes_the_floor(v: &Values) -> bool {
+    v.table_opt("shaking").is_some_and(|s| s.text("of") == "floor")
+}
+
+/// The motion that a table describes; `gravity` in m/s².
+#[must_use]
+pub fn motion(s: &Values, gravity: f64) -> Motion {
     let frequency = s.number("frequency");
     let w = TAU * frequency;
     let amplitude = s
         .number_opt("displacement_amplitude")
         .or_else(|| s.number_opt("peak_velocity").map(|u| u / w))
-        .or_else(|| s.number_opt("gamma").map(|g| g * v.number("gravity") / (w * w)))
+        .or_else(|| s.number_opt("gamma").map(|g| g * gravity / (w * w)))
         .unwrap_or(0.0);
     let direction = s.vector_opt("direction").unwrap_or(Vec3::Z);
     let phase = s.vector_opt("phase").unwrap_or(Vec3::ZERO);
@@ -48,6 +59,26 @@ pub fn shaking(v: &Values) -> Motion {
         });
     }
     Motion { harmonics, ramp: s.number("ramp") }
+}
+
+/// The tables that say how single walls and obstacles move, with the keys that lead to them.
+pub(crate) fn own_motions(v: &Values) -> Vec<(String, &Values)> {
+    let side = |s: &&'static str| {
+        let table = v.table_opt("walls")?.table_opt(s)?.table_opt("motion")?;
+        Some((format!("walls.{s}.motion"), table))
+    };
+    let mut all: Vec<_> = SIDES.iter().filter_map(side).collect();
+    for (k, o) in v.tables("obstacles").enumerate() {
+        all.extend(o.table_opt("motion").map(|t| (format!("obstacles[{k}].motion"), t)));
+    }
+    all
+}
+
+/// Largest speed that the shaker or a single wall can reach, m/s.
+#[must_use]
+pub fn peak_speed(v: &Values) -> f64 {
+    let own = own_motions(v).into_iter().map(|(_, m)| motion(m, v.number("gravity")).peak_speed());
+    own.fold(0.0, f64::max) + shaking(v).peak_speed()
 }
 
 /// Displacement amplitude (m) and frequency (Hz) of the fundamental, if anything shakes.
