@@ -1,6 +1,6 @@
 //! Fields over cells of a plane or of space.
 
-use super::zone_stats::{FRAME, ZoneStats, place};
+use super::zone_stats::{FRAME, WEIGHT, ZoneStats, place};
 use super::{AXES, Faults, Observe, Setting, plane_axes};
 use crate::accumulate::Estimate;
 use crate::view::{Needs, View};
@@ -51,6 +51,7 @@ impl Observe for Field {
         )
         .with(Check::Between(0.0, 0.7)),
         FRAME,
+        WEIGHT,
     ];
 
     fn from_values(values: &Values, setting: &Setting) -> Result<Self, Faults> {

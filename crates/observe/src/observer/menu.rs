@@ -87,6 +87,7 @@ observers! {
     Convection = convection,
     Trajectory = trajectory,
     Surface = surface,
+    Gap = gap,
     Profile = profile,
     Field = field,
     Diffusion = diffusion,

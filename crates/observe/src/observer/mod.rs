@@ -12,6 +12,7 @@ mod field;
 mod flow;
 mod flow_energy;
 mod flow_field;
+mod gap;
 mod layers;
 mod mixing;
 mod probe;
@@ -25,9 +26,11 @@ mod walls;
 mod zone_stats;
 
 use crate::view::{Needs, View};
+use crate::zones::Direction;
 use brazilnut_base::figure::Figure;
-use brazilnut_base::keys::Key;
+use brazilnut_base::keys::{Check, Key, Kind};
 use brazilnut_base::menu::Entry;
+use brazilnut_base::units::Dimension;
 use brazilnut_base::values::Values;
 use brazilnut_base::{Cell, Column, Table, Vec3};
 use brazilnut_grains::Grains;
@@ -169,6 +172,27 @@ fn unknown_species(setting: &Setting, name: &str) -> (String, String) {
     let near = brazilnut_base::menu::nearest(name, known.iter().copied());
     let hint = near.map_or_else(String::new, |n| format!("; did you mean `{n}`?"));
     ("of".into(), format!("no grains are called `{name}` (there are: {}){hint}", known.join(", ")))
+}
+
+/// Keys of the columns across the cell that some observers stand in.
+pub(crate) const COLUMNS: [Key; 2] = [
+    Key::default("across", Kind::Word(&["x", "y"]), "\"x\"", "Direction along which the columns stand."),
+    Key::optional(
+        "size",
+        Kind::Quantity(Dimension::LENGTH),
+        "Width of a column, adjusted to divide the cell evenly; two mean diameters if left out.",
+    )
+    .with(Check::Positive),
+];
+
+/// The columns of [`COLUMNS`].
+pub(crate) fn columns_across(values: &Values, setting: &Setting) -> Result<Direction, Faults> {
+    let axis = usize::from(values.text("across") == "y");
+    if setting.cell.flat_axis() == Some(axis) {
+        return Err(vec![("across".into(), format!("the cell has no extent along {}", AXES[axis]))]);
+    }
+    let size = values.number_opt("size").unwrap_or(2.0 * setting.mean_diameter);
+    Ok(Direction::across(setting.cell, axis, size))
 }
 
 /// Letters of the axes.

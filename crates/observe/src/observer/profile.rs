@@ -1,6 +1,6 @@
 //! Profiles across the bed.
 
-use super::zone_stats::{FRAME, ZoneStats, place};
+use super::zone_stats::{FRAME, WEIGHT, ZoneStats, place};
 use super::{AXES, Faults, Observe, Setting};
 use crate::accumulate::Estimate;
 use crate::view::{Needs, View};
@@ -66,6 +66,7 @@ impl Observe for Profile {
             "Height at which slabs along z begin, negative to look below the mean place of a floor that moves down; the base of the cell if left out.",
         ),
         FRAME,
+        WEIGHT,
         Key::optional(
             "series",
             Kind::List(&Kind::Word(&NAMES)),

@@ -1,6 +1,6 @@
 //! The shape of the bed's surface.
 
-use super::{AXES, Faults, Observe, Selection, Setting};
+use super::{AXES, COLUMNS, Faults, Observe, Selection, Setting, columns_across};
 use crate::accumulate::Batched;
 use crate::height::quantile;
 use crate::view::View;
@@ -34,13 +34,8 @@ impl Observe for Surface {
     };
 
     const KEYS: &'static [Key] = &[
-        Key::default("across", Kind::Word(&["x", "y"]), "\"x\"", "Direction along which the columns stand."),
-        Key::optional(
-            "size",
-            Kind::Quantity(Dimension::LENGTH),
-            "Width of a column, adjusted to divide the cell evenly; two mean diameters if left out.",
-        )
-        .with(Check::Positive),
+        COLUMNS[0],
+        COLUMNS[1],
         Key::default(
             "percentile",
             Kind::Quantity(Dimension::NONE),
@@ -51,12 +46,7 @@ impl Observe for Surface {
     ];
 
     fn from_values(values: &Values, setting: &Setting) -> Result<Self, Faults> {
-        let axis = usize::from(values.text("across") == "y");
-        if setting.cell.flat_axis() == Some(axis) {
-            return Err(vec![("across".into(), format!("the cell has no extent along {}", AXES[axis]))]);
-        }
-        let size = values.number_opt("size").unwrap_or(2.0 * setting.mean_diameter);
-        let columns = Direction::across(setting.cell, axis, size);
+        let columns = columns_across(values, setting)?;
         Ok(Self {
             of: Selection::read(values, setting)?,
             percentile: values.number("percentile"),

@@ -4,18 +4,26 @@ use super::{Faults, Selection, Setting};
 use crate::accumulate::{Batched, Estimate};
 use crate::view::View;
 use crate::zones::Zones;
-use crate::zones::sums::{self, Frame, QUANTITIES, SUMS};
+use crate::zones::sums::{self, Frame, QUANTITIES, SUMS, Weight};
 use brazilnut_base::keys::{Key, Kind};
 use brazilnut_base::values::Values;
 use brazilnut_base::{Column, Table};
 use serde::{Deserialize, Serialize};
 
-/// The key that both have.
+/// A key that both have.
 pub const FRAME: Key = Key::default(
     "frame",
     Kind::Word(&["cell", "floor"]),
     "\"cell\"",
     "Frame of places and velocities: the cell's, or that of a floor that moves alone.",
+);
+
+/// The other one.
+pub const WEIGHT: Key = Key::default(
+    "weight",
+    Kind::Word(&["volume", "centre"]),
+    "\"volume\"",
+    "Where a grain counts: in every zone by the fraction of its volume there, or as a whole in the zone of its centre.",
 );
 
 /// More zones than this would take hundreds of megabytes of sums.
@@ -29,6 +37,7 @@ pub struct ZoneStats {
     pub of: Selection,
     pub zones: Zones,
     pub frame: Frame,
+    pub weight: Weight,
     pub flat: bool,
     pub sums: Batched,
 }
@@ -44,6 +53,7 @@ impl ZoneStats {
         Ok(Self {
             of: Selection::read(values, setting)?,
             frame,
+            weight: if values.text("weight") == "centre" { Weight::Centre } else { Weight::Volume },
             flat: setting.cell.flat_axis().is_some(),
             sums: Batched::new(
                 SUMS * zones.len(),
@@ -56,7 +66,7 @@ impl ZoneStats {
 
     /// Takes a sample and returns its sums.
     pub fn sample(&mut self, view: &View) -> Vec<f64> {
-        let now = sums::at(view, &self.zones, self.of, self.frame);
+        let now = sums::at(view, &self.zones, self.of, self.frame, self.weight);
         self.sums.add(&now);
         now
     }

@@ -30,6 +30,15 @@ pub enum Frame {
     Floor,
 }
 
+/// Where a grain counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Weight {
+    /// In every zone, by the fraction of its volume there (Lan 3.1).
+    Volume,
+    /// As a whole in the zone that holds its centre (Lan 5, before 5.1).
+    Centre,
+}
+
 impl Frame {
     /// Displacement and velocity of the frame in the cell.
     #[must_use]
@@ -45,7 +54,7 @@ impl Frame {
 ///
 /// Fluctuations are about the zone's mean velocity at this instant (Lan eq. 3-1-5).
 #[must_use]
-pub fn at(view: &View, zones: &Zones, of: Selection, frame: Frame) -> Vec<f64> {
+pub fn at(view: &View, zones: &Zones, of: Selection, frame: Frame, weight: Weight) -> Vec<f64> {
     let g = view.grains;
     let (shift, drift) = frame.moved(view);
     let mut sums = vec![0.0; SUMS * zones.len()];
@@ -56,7 +65,7 @@ pub fn at(view: &View, zones: &Zones, of: Selection, frame: Frame) -> Vec<f64> {
     for k in (0..g.len()).filter(|&k| of.takes(g, k)) {
         let (v, w) = (g.velocity[k] - drift, g.angular_velocity[k]);
         let volume = zones.body().volume(g.radius[k]);
-        zones.spread(g.position[k] - shift, g.radius[k], &mut scratch, |zone, part| {
+        let mut add = |zone: usize, part: f64| {
             let s = &mut sums[zone * SUMS..(zone + 1) * SUMS];
             let m = part * g.mass[k];
             s[MASS] += m;
@@ -73,7 +82,11 @@ pub fn at(view: &View, zones: &Zones, of: Selection, frame: Frame) -> Vec<f64> {
             s[VOLUME] += part * volume;
             s[NUMBER] += part;
             s[TOUCHES] += part * touches[k];
-        });
+        };
+        match weight {
+            Weight::Volume => zones.spread(g.position[k] - shift, g.radius[k], &mut scratch, add),
+            Weight::Centre => add(zones.find(g.position[k] - shift), 1.0),
+        }
     }
     for (s, (l, i)) in sums.chunks_exact_mut(SUMS).zip(turn) {
         if s[MASS] > 0.0 {
@@ -224,7 +237,13 @@ mod tests {
             *w = vec3(10.0 * normal.sample(&mut rng) + 4.0, 0.0, 0.0);
         }
         let mut q = [0.0; 25];
-        derive(&at(&stage.view(), &whole(&stage), Selection::All, Frame::Cell), 1.0, 1.0, false, &mut q);
+        derive(
+            &at(&stage.view(), &whole(&stage), Selection::All, Frame::Cell, Weight::Volume),
+            1.0,
+            1.0,
+            false,
+            &mut q,
+        );
         // Variances of 20000 values: relative error sqrt(2/20000) = 1 %; four of those.
         for (value, exact) in [(q[5], 0.25), (q[6], 1.0), (q[7], 4.0), (q[4], 1.75), (q[9], 1.75)] {
             assert!((value / exact - 1.0).abs() < 0.04, "{value} {exact}");
@@ -247,7 +266,7 @@ mod tests {
                 .add((vec3(f64::from(k % 10), f64::from(k / 10 % 10), f64::from(k / 100)) + 0.5) * 0.1, 0.05);
         }
         let zones = Zones::Grid(Grid::new(&stage.cell, vec![Direction::across(&stage.cell, 2, 0.1)]));
-        let sums = at(&stage.view(), &zones, Selection::All, Frame::Cell);
+        let sums = at(&stage.view(), &zones, Selection::All, Frame::Cell, Weight::Volume);
         let mut q = [0.0; 25];
         for s in sums.chunks_exact(SUMS) {
             derive(s, 1.0, zones.volume(0), false, &mut q);
@@ -272,12 +291,29 @@ mod tests {
             });
         }
         let zones = Zones::Grid(Grid::new(&stage.cell, vec![Direction::across(&stage.cell, 2, 0.1)]));
-        let sums = at(&stage.view(), &zones, Selection::All, Frame::Cell);
+        let sums = at(&stage.view(), &zones, Selection::All, Frame::Cell, Weight::Volume);
         let mut q = [0.0; 25];
         derive(&sums[5 * SUMS..6 * SUMS], 1.0, zones.volume(0), false, &mut q);
         // Slab 5 holds half of the contact below grain 5 (5 N) and half of the one above it (4 N).
         assert!((q[21] - 4.5 / 0.01).abs() < 1e-9, "{}", q[21]);
         assert_eq!(q[12], 2.0);
+    }
+
+    #[test]
+    fn a_grain_may_count_where_its_centre_is() {
+        // A fifth of the diameter lies in the upper slab; by its centre all of it lies in the lower one.
+        let mut stage = Stage::new(vec3(1.0, 1.0, 1.0), "walls");
+        stage.add(vec3(0.5, 0.5, 0.47), 0.05);
+        let zones = Zones::Grid(Grid::new(&stage.cell, vec![Direction::across(&stage.cell, 2, 0.5)]));
+        let mass = |weight| {
+            let sums = at(&stage.view(), &zones, Selection::All, Frame::Cell, weight);
+            [super::mass(&sums), super::mass(&sums[SUMS..])].map(|m| m / stage.grains.mass[0])
+        };
+        // A cap of height h = 0.4 r holds h²(3 - h)/4 of the ball.
+        let cap = 0.25 * 0.4 * 0.4 * 2.6;
+        let parts = mass(Weight::Volume);
+        assert!((parts[0] - (1.0 - cap)).abs() < 1e-12 && (parts[1] - cap).abs() < 1e-12, "{parts:?}");
+        assert_eq!(mass(Weight::Centre), [1.0, 0.0]);
     }
 
     #[test]
@@ -288,7 +324,7 @@ mod tests {
         stage.floor.displacement.z = 0.3;
         stage.floor.velocity.z = 0.75;
         let zones = Zones::Grid(Grid::new(&stage.cell, vec![Direction::across(&stage.cell, 2, 0.1)]));
-        let sums = at(&stage.view(), &zones, Selection::All, Frame::Floor);
+        let sums = at(&stage.view(), &zones, Selection::All, Frame::Floor, Weight::Volume);
         let mut q = [0.0; 25];
         derive(&sums[SUMS..2 * SUMS], 1.0, zones.volume(0), false, &mut q);
         assert!((q[3] - 0.25).abs() < 1e-14);
