@@ -1,6 +1,7 @@
 //! Computed beside published: the verdicts.
 
 use crate::study::{Computed, Study};
+use brazilnut_report::text::significant;
 use serde::{Deserialize, Serialize};
 
 /// How a quantity compares with what was published.
@@ -70,6 +71,8 @@ pub struct Finding {
     pub unit: String,
     /// What was computed.
     pub computed: f64,
+    /// Its standard error over the seeds, if there are several.
+    pub error: Option<f64>,
     /// What was published, if it is a number.
     pub published: Option<f64>,
     /// What is allowed, in words.
@@ -89,13 +92,19 @@ impl Finding {
         let published = self.published.map_or(String::new(), |p| format!(" published {p}"));
         let differs = if self.verdict == self.recorded { "" } else { " (recorded otherwise)" };
         format!(
-            "{:<9} {:<44} {:.5} {}{published} [{}]{differs}",
+            "{:<9} {:<44} {} {}{published} [{}]{differs}",
             self.verdict.name(),
             self.quantity,
-            Digits(self.computed),
+            self.value(),
             self.unit,
             self.tolerance
         )
+    }
+
+    /// What was computed with its standard error, as text.
+    fn value(&self) -> String {
+        let value = significant(self.computed, 5);
+        self.error.map_or(value.clone(), |e| format!("{value} ± {}", significant(e, 2)))
     }
 
     /// One row for the report.
@@ -105,21 +114,12 @@ impl Finding {
         vec![
             self.quantity.clone(),
             self.unit.clone(),
-            brazilnut_report::text::significant(self.computed, 5),
+            self.value(),
             published,
             self.tolerance.clone(),
             self.verdict.name().into(),
             self.place.clone(),
         ]
-    }
-}
-
-/// A number with so many significant digits as the precision says.
-struct Digits(f64);
-
-impl std::fmt::Display for Digits {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&brazilnut_report::text::significant(self.0, f.precision().unwrap_or(5)))
     }
 }
 
@@ -173,6 +173,7 @@ pub fn judge(study: &Study, computed: &[Computed], quick: bool) -> Result<Vec<Fi
             quantity: p.name,
             unit: p.unit,
             computed: c.value,
+            error: c.error,
             published: p.published,
             tolerance,
             verdict,
@@ -198,8 +199,5 @@ fn allowed(p: &Published, x: f64, quick: bool) -> (bool, String) {
         return ((x - value).abs() <= t, format!("± {t}"));
     }
     let t = pick(p.tolerance, p.quick_tolerance).unwrap_or(0.0);
-    (
-        (x - value).abs() <= t * value.abs(),
-        format!("± {} %", brazilnut_report::text::significant(100.0 * t, 3)),
-    )
+    ((x - value).abs() <= t * value.abs(), format!("± {} %", significant(100.0 * t, 3)))
 }

@@ -10,6 +10,9 @@ use crate::{
     lan_stiffness,
     clement_cavity, clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11,
     clement_modified_kroll_peaks, lan_kinetic_theory, lan_self_diffusion, lan_stiffness,
+    clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11,
+    clement_modified_kroll_peaks, lan_arching, lan_convection, lan_kinetic_theory, lan_large_sphere,
+    lan_self_diffusion, lan_stiffness,
 };
 
 /// A study whose folder and id agree.
@@ -74,9 +77,12 @@ pub const MENU: &[Study] = &[
         clement_thrown_bed::run
     ),
     study!("clement-tilt", "A bed in water piles up to one side (Clément 2009)", clement_tilt::run),
+    study!("lan-arching", "Arches under a wide bed (Lan 1994)", lan_arching::run),
+    study!("lan-convection", "Convection between rough walls (Lan 1994)", lan_convection::run),
     study!("lan-kinetic-theory", "Kinetic theory of a vibrated layer (Lan 1994)", |r| Ok(
         lan_kinetic_theory::run(r.quick).into()
     )),
+    study!("lan-large-sphere", "A large sphere in a convecting bed (Lan 1994)", lan_large_sphere::run),
     study!("lan-self-diffusion", "Self-diffusion in a vibrated layer (Lan 1994)", lan_self_diffusion::run),
     study!("lan-stiffness", "Softer springs, the same profiles (Lan 1994)", lan_stiffness::run),
 ];

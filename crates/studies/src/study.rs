@@ -43,18 +43,43 @@ pub struct Computed {
     pub name: String,
     /// Its value in the unit given there.
     pub value: f64,
+    /// Its standard error, if it is a mean over several runs.
+    pub error: Option<f64>,
 }
 
 impl Computed {
     /// A quantity.
     #[must_use]
     pub fn new(name: impl Into<String>, value: f64) -> Self {
-        Self { name: name.into(), value }
+        Self { name: name.into(), value, error: None }
+    }
+
+    /// The mean of runs that differ by their seed, with its standard error.
+    #[must_use]
+    pub fn mean(name: impl Into<String>, of: &[f64]) -> Self {
+        let n = of.len() as f64;
+        let mean = of.iter().sum::<f64>() / n;
+        let square: f64 = of.iter().map(|x| (x - mean) * (x - mean)).sum();
+        let error = (of.len() > 1).then(|| (square / (n * (n - 1.0))).sqrt());
+        Self { name: name.into(), value: mean, error }
     }
 }
 
 impl From<(Vec<Computed>, Vec<Figure>)> for Ran {
     fn from((computed, figures): (Vec<Computed>, Vec<Figure>)) -> Self {
         Self { computed, figures }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn standard_error_of_three_runs() {
+        let m = Computed::mean("x", &[1.0, 2.0, 6.0]);
+        // Variance (4 + 1 + 9)/2 = 7; sqrt(7/3).
+        assert!((m.value - 3.0).abs() < 1e-15 && (m.error.unwrap() - (7.0_f64 / 3.0).sqrt()).abs() < 1e-15);
+        assert_eq!(Computed::mean("x", &[4.0]), Computed::new("x", 4.0));
     }
 }

@@ -1,0 +1,288 @@
+//! A large sphere in a convecting bed (Lan 5.2, Figs A5.12-A5.17).
+
+use crate::runs::{Done, SEEDS, column};
+use crate::study::{Computed, Ran, Request};
+use brazilnut_base::Table;
+use brazilnut_base::figure::{Axis, Body, Curve, Figure};
+use brazilnut_runner::Failure;
+
+const CASE: (&str, &str) =
+    ("studies/lan-large-sphere/case.toml", include_str!("../../../studies/lan-large-sphere/case.toml"));
+
+/// Diameters of the grains and of the large sphere, m.
+const SMALL: f64 = 0.1;
+const LARGE: f64 = 0.3;
+
+/// Restitution between grains, and at the walls (Fig. A5.15).
+const RESTITUTIONS: [(f64, f64); 4] = [(0.6, 0.6), (0.6, 0.9), (0.9, 0.6), (0.9, 0.9)];
+
+/// Samples per cycle of the tables `height` and `trajectory`, and cycles in a running mean (1 s).
+const HEIGHTS: usize = 12;
+const CYCLES: usize = 7;
+
+/// A bed and its sphere, once per seed.
+struct Bed {
+    name: String,
+    runs: Vec<Run>,
+}
+
+/// Tables of one run.
+struct Run {
+    height: Table,
+    sphere: Table,
+    spectrum: Table,
+    small: Table,
+}
+
+impl Bed {
+    fn new(name: &str, overrides: &[String], request: &Request) -> Result<Self, Failure> {
+        let seeds = if request.quick { &SEEDS[..1] } else { &SEEDS };
+        let run = |seed: &u64| {
+            let mut all = overrides.to_vec();
+            all.push(format!("seed={seed}"));
+            let run =
+                Done::new(CASE, &all, &request.out.join(format!("{name}-seed-{seed}")), !request.quick)?;
+            Ok(Run {
+                height: run.table("height")?,
+                sphere: run.table("trajectory")?,
+                spectrum: run.table("trajectory-spectrum")?,
+                small: run.table("small")?,
+            })
+        };
+        let runs = seeds.iter().map(run).collect::<Result<_, Failure>>()?;
+        Ok(Self { name: name.into(), runs })
+    }
+
+    fn mean(&self, what: &str, of: impl Fn(&Run) -> f64) -> Computed {
+        Computed::mean(format!("{what}, {}", self.name), &self.runs.iter().map(of).collect::<Vec<_>>())
+    }
+
+    fn time_to_the_top(&self) -> Computed {
+        self.mean("time to the top", Run::time_to_the_top)
+    }
+}
+
+impl Run {
+    /// Running means over a second of a column of the table `height`: middle of the second, value.
+    fn running(&self, name: &str) -> Vec<[f64; 2]> {
+        let window = HEIGHTS * CYCLES;
+        let (t, y) = (column(&self.height, "time"), column(&self.height, name));
+        let mean = |w: &[f64]| w.iter().sum::<f64>() / window as f64;
+        t.windows(window).zip(y.windows(window)).step_by(HEIGHTS).map(|(t, y)| [mean(t), mean(y)]).collect()
+    }
+
+    /// When the top of the sphere has come up to the surface of the others, s; the end of the run if it does not.
+    fn time_to_the_top(&self) -> f64 {
+        let depth = self.running("depth");
+        let end = column(&self.height, "time").last().copied().unwrap_or(f64::NAN);
+        depth.iter().find(|p| p[1] <= 0.0).map_or(end, |p| p[0])
+    }
+
+    /// How deep its top went below the surface after it had come up, in its diameters.
+    fn deepest_afterwards(&self) -> f64 {
+        let depth = self.running("depth");
+        depth.iter().skip_while(|p| p[1] > 0.0).map(|p| p[1] / LARGE).fold(0.0, f64::max)
+    }
+
+    /// How far its centre rose above where it was at first, in diameters of the small ones.
+    fn rise(&self) -> f64 {
+        let h = self.running("height");
+        (h.iter().map(|p| p[1]).fold(0.0, f64::max) - h[0][1]) / SMALL
+    }
+
+    /// Frequency of the largest power of the vertical velocity, Hz. What is slower than the window of a
+    /// second belongs to the rise itself.
+    fn peak(&self) -> f64 {
+        let (f, p) = (column(&self.spectrum, "frequency"), column(&self.spectrum, "velocity_z"));
+        let best = (0..f.len()).filter(|&k| f[k] > 1.0).max_by(|&a, &b| p[a].total_cmp(&p[b]));
+        best.map_or(f64::NAN, |k| f[k])
+    }
+
+    /// Rate of rise of the grains under the sphere over its own, while it goes up.
+    ///
+    /// Under it are grains whose centres lie, once it has risen by a diameter of theirs, below its centre,
+    /// and to the side of it by no more than its radius.
+    fn rate_under_it(&self) -> f64 {
+        let [t, x, z] = ["time", "x", "height"].map(|c| column(&self.sphere, c));
+        let top = self.time_to_the_top();
+        let begin = self.running("height").iter().find(|p| p[1] > 0.5 * LARGE + SMALL).map_or(top, |p| p[0]);
+        let rate = |t: &[f64], z: &[f64]| {
+            let inside: Vec<usize> = (0..t.len()).filter(|&k| t[k] >= begin && t[k] <= top).collect();
+            let n = inside.len() as f64;
+            let mean = |y: &[f64]| inside.iter().map(|&k| y[k]).sum::<f64>() / n;
+            let (mt, mz) = (mean(t), mean(z));
+            let xx: f64 = inside.iter().map(|&k| (t[k] - mt).powi(2)).sum();
+            inside.iter().map(|&k| (t[k] - mt) * (z[k] - mz)).sum::<f64>() / xx
+        };
+        let at = |t: &[f64]| t.iter().position(|&t| t >= begin).unwrap_or(0);
+        let (s, times) = (at(&t), column(&self.small, "time"));
+        let k = at(&times);
+        let rates: Vec<f64> = (0..)
+            .map_while(|g| {
+                self.small.column(&format!("x_{g}")).map(|x| (x, column(&self.small, &format!("height_{g}"))))
+            })
+            .filter(|(gx, gz)| (gx[k] - x[s]).abs() < 0.5 * LARGE && gz[k] < z[s])
+            .map(|(_, gz)| rate(&times, &gz))
+            .collect();
+        rates.iter().sum::<f64>() / rates.len() as f64 / rate(&t, &z)
+    }
+
+    /// Rows of the trajectory while the sphere goes up under the full shake: phase in cycles, contacts, velocity.
+    fn going_up(&self) -> Vec<[f64; 3]> {
+        let [t, cycle, n, v] = ["time", "cycle", "contacts", "velocity_z"].map(|c| column(&self.sphere, c));
+        let top = self.time_to_the_top();
+        (0..t.len())
+            .filter(|&k| t[k] > 1.0 && t[k] < top)
+            .map(|k| [cycle[k].rem_euclid(1.0), n[k], v[k]])
+            .collect()
+    }
+
+    /// Mean number of contacts while the floor rises over that while it falls.
+    fn contacts_rising(&self) -> f64 {
+        let rows = self.going_up();
+        let mean = |up: bool| {
+            let of = rows.iter().filter(|r| (r[0] < 0.25 || r[0] >= 0.75) == up);
+            let (sum, n) = of.fold((0.0, 0.0), |(s, n), r| (s + r[1], n + 1.0));
+            sum / n
+        };
+        mean(true) / mean(false)
+    }
+
+    /// Smallest number of contacts while the floor falls from its highest place to its fastest.
+    fn fewest_contacts(&self) -> f64 {
+        let falling = self.going_up().into_iter().filter(|r| (0.25..0.5).contains(&r[0]));
+        falling.map(|r| r[1]).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Correlation coefficient of the number of contacts and the vertical velocity.
+    fn correlation(&self) -> f64 {
+        let rows = self.going_up();
+        let n = rows.len() as f64;
+        let mean = |c: usize| rows.iter().map(|r| r[c]).sum::<f64>() / n;
+        let (a, b) = (mean(1), mean(2));
+        let sum = |f: &dyn Fn(&[f64; 3]) -> f64| rows.iter().map(f).sum::<f64>();
+        let product = sum(&|r| (r[1] - a) * (r[2] - b));
+        product / (sum(&|r| (r[1] - a).powi(2)) * sum(&|r| (r[2] - b).powi(2))).sqrt()
+    }
+}
+
+/// The beds of Fig. A5.15.
+fn restitution((grains, walls): (f64, f64), more: &[&str], request: &Request) -> Result<Bed, Failure> {
+    let mut overrides =
+        vec![format!("contact.restitution={grains}"), format!("contact.pairs.0.restitution={walls}")];
+    overrides.extend(more.iter().map(ToString::to_string));
+    Bed::new(&format!("restitution {grains} and {walls}"), &overrides, request)
+}
+
+/// The quantities and plots.
+///
+/// # Errors
+/// Whatever a run fails with.
+pub fn run(request: &Request) -> Result<Ran, Failure> {
+    if request.quick {
+        let bed = restitution(RESTITUTIONS[0], &["time.end=12 s"], request)?;
+        let computed = vec![bed.mean("rise", Run::rise), bed.mean("peak of the spectrum", Run::peak)];
+        return Ok(Ran { computed, figures: vec![heights("Height of the sphere", &[&bed])] });
+    }
+    let beds: Vec<Bed> =
+        RESTITUTIONS.iter().map(|&e| restitution(e, &[], request)).collect::<Result<_, _>>()?;
+    let cell = |width: &str, depth: &str| format!("cell.size=[\"{width}\", \"{depth}\", \"2.1 m\"]");
+    let wide = Bed::new(
+        "20d cell",
+        &[
+            cell("2.0 m", "0.3 m"),
+            "grains.0.count=573".into(),
+            "grains.1.at=[\"1.0 m\", \"0.15 m\", \"0.15 m\"]".into(),
+        ],
+        request,
+    )?;
+    let widest = Bed::new(
+        "100d cell",
+        &[
+            cell("10.0 m", "0.1 m"),
+            "cell.y=flat".into(),
+            "grains.0.count=955".into(),
+            "grains.1.at=[\"5.0 m\", \"0.05 m\", \"0.15 m\"]".into(),
+        ],
+        request,
+    )?;
+    let times: Vec<Computed> = beds.iter().map(Bed::time_to_the_top).collect();
+    let ratio = |name: &str, a: usize, b: usize| Computed::new(name, times[a].value / times[b].value);
+    let soft = &beds[0];
+    let computed = vec![
+        times[0].clone(),
+        times[3].clone(),
+        ratio("time to the top at restitution 0.9 over that at 0.6", 3, 0),
+        ratio("time to the top with grains of 0.9 and walls of 0.6 over the reverse", 2, 1),
+        soft.mean("rise", Run::rise),
+        soft.mean("deepest after it came up", Run::deepest_afterwards),
+        wide.time_to_the_top(),
+        wide.mean("deepest after it came up", Run::deepest_afterwards),
+        widest.mean("rise", Run::rise),
+        soft.mean("rate of the grains under it over its own", Run::rate_under_it),
+        soft.mean("peak of the spectrum", Run::peak),
+        soft.mean("contacts while the floor rises over those while it falls", Run::contacts_rising),
+        soft.mean("fewest contacts while the floor falls", Run::fewest_contacts),
+        soft.mean("correlation of contacts and velocity", Run::correlation),
+    ];
+    let all: Vec<&Bed> = beds.iter().collect();
+    let figures = vec![
+        heights("Height of the sphere against restitution (Fig. A5.15)", &all),
+        heights("Height of the sphere against the cell (Figs A5.12, A5.13)", &[soft, &wide, &widest]),
+        spectra(soft),
+        cycle(soft),
+    ];
+    Ok(Ran { computed, figures })
+}
+
+fn heights(title: &str, beds: &[&Bed]) -> Figure {
+    let curves = beds.iter().flat_map(|bed| {
+        let curve =
+            |(k, r): (usize, &Run)| Curve::line(format!("{}, seed {}", bed.name, k + 1), r.running("height"));
+        bed.runs.iter().enumerate().map(curve).collect::<Vec<_>>()
+    });
+    Figure {
+        title: title.into(),
+        caption: "Centre of the sphere above the floor, running mean over a second.".into(),
+        body: Body::Curves {
+            x: Axis::linear("time", "s"),
+            y: Axis::linear("height", "m"),
+            curves: curves.collect(),
+        },
+    }
+}
+
+fn spectra(bed: &Bed) -> Figure {
+    let curve = |(k, r): (usize, &Run)| {
+        let (f, p) = (column(&r.spectrum, "frequency"), column(&r.spectrum, "velocity_z"));
+        let points = f.into_iter().zip(p).skip(1).filter(|p| p.0 < 20.0).map(|(f, p)| [f, p]).collect();
+        Curve::line(format!("seed {}", k + 1), points)
+    };
+    Figure {
+        title: "Spectrum of the sphere's vertical velocity (Fig. A5.14a)".into(),
+        caption: "Power spectral density by Welch's method; the floor moves at 7 Hz.".into(),
+        body: Body::Curves {
+            x: Axis::log("frequency", "Hz"),
+            y: Axis::log("power spectral density", "m^2/s"),
+            curves: bed.runs.iter().enumerate().map(curve).collect(),
+        },
+    }
+}
+
+/// Contacts and velocity over a second of the rise.
+fn cycle(bed: &Bed) -> Figure {
+    let run = &bed.runs[0];
+    let [t, n, v] = ["time", "contacts", "velocity_z"].map(|c| column(&run.sphere, c));
+    let middle = 0.5 * run.time_to_the_top();
+    let shown: Vec<usize> = (0..t.len()).filter(|&k| t[k] >= middle && t[k] < middle + 1.0).collect();
+    let curve = |label: &str, y: &[f64]| Curve::line(label, shown.iter().map(|&k| [t[k], y[k]]).collect());
+    Figure {
+        title: "Contacts and velocity of the sphere (Fig. A5.17)".into(),
+        caption: "A second of the rise, seed 1: number of grains and walls that touch it, and its vertical velocity in m/s.".into(),
+        body: Body::Curves {
+            x: Axis::linear("time", "s"),
+            y: Axis::linear("contacts; velocity in m/s", "1"),
+            curves: vec![curve("contacts", &n), curve("vertical velocity", &v)],
+        },
+    }
+}
