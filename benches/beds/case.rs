@@ -32,8 +32,11 @@ pub struct Case {
 /// Density of the grains of the dense beds, kg/m³.
 const DENSITY: f64 = 2500.0;
 
-/// The table of beds: letter, start state, tiles, warm-up, steps, least ratios.
-const CASES: &[(char, &str, [usize; 2], u64, u64, [f64; 2])] = &[
+/// Letter, start state, tiles, steps of warm-up, steps timed, least ratios to the plain sweep and to a peer.
+type Bed = (char, &'static str, [usize; 2], u64, u64, [f64; 2]);
+
+/// The table of beds.
+const CASES: &[Bed] = &[
     ('A', "A.txt.gz", [1, 1], 20_000, 50_000, [1.1, 2.5]),
     ('B', "bed20k.txt.gz", [1, 1], 500, 1000, [2.0, 2.5]),
     ('C', "bed20k.txt.gz", [5, 2], 100, 100, [1.4, 3.5]),

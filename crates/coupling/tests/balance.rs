@@ -153,7 +153,7 @@ fn the_answer_moves_and_turns_with_the_case() {
 fn a_fall_along_any_axis_is_the_same_fall() {
     for method in methods() {
         let fall = |axis: usize| {
-            let turn = |v: Vec3| {
+            let turn = move |v: Vec3| {
                 let mut t = Vec3::ZERO;
                 for c in 0..3 {
                     t[(c + axis) % 3] = v[c];

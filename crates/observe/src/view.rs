@@ -120,7 +120,7 @@ pub trait FlowView {
 }
 
 /// Energy and volume of a flow; what is not known is not a number.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FlowBalance {
     /// Kinetic energy, J.
     pub kinetic: f64,

@@ -140,6 +140,7 @@ impl Plane {
 mod tests {
     use super::*;
     use brazilnut_base::{Side, vec3};
+    use brazilnut_observe::FlowBalance;
 
     /// Solid rotation about y on 10 by 10 by 10 cells of a box of edge 1.
     struct Turning;
@@ -162,6 +163,9 @@ mod tests {
         }
         fn centre(&self, cell: [usize; 3]) -> Vec3 {
             Vec3::from_array(cell.map(|i| 0.1 * (i as f64 + 0.5)))
+        }
+        fn balance(&self, _: f64) -> FlowBalance {
+            FlowBalance::default()
         }
     }
 

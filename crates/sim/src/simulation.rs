@@ -410,6 +410,19 @@ impl Simulation {
         let porosity = state.porosity.as_ref().or(scratch.porosity.as_ref());
         (&scratch.grains, seen(plan, solver.as_ref(), state.flow.as_ref(), porosity, time))
     }
+
+    /// The energy ledger since time 0 (since the start while settling).
+    #[must_use]
+    pub fn ledger(&self) -> Ledger {
+        view::since(&self.engines.dem.ledger(&self.state.dem), &self.state.before)
+    }
+
+    /// Root-mean-square speed of the grains, m/s.
+    fn rms_speed(&mut self) -> f64 {
+        let grains = self.grains();
+        let sum = sum(grains.velocity.iter().map(|v| v.length_squared()));
+        (sum / grains.len().max(1) as f64).sqrt()
+    }
 }
 
 /// The flow as observers see it.

@@ -5,22 +5,21 @@
 //! what was published (`published.toml`, written by hand), the cases, and a
 //! README with the deviations admitted.
 
+mod clement_cavity;
 mod clement_cylinder_drag;
 mod clement_falling_cylinder;
-mod clement_cavity;
 mod clement_fig_2_4_to_2_7;
 mod clement_fig_4_1_to_4_3;
 mod clement_fig_5_17;
 mod clement_fig_6_11;
+mod clement_heap;
 mod clement_lubrication;
 mod clement_modified_kroll_peaks;
 mod clement_sedimentation;
 mod clement_sphere_drag;
-mod fall;
-mod clement_heap;
-mod clement_modified_kroll_peaks;
 mod clement_thrown_bed;
 mod clement_tilt;
+mod fall;
 pub mod findings;
 mod lan_arching;
 mod lan_convection;

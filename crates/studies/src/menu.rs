@@ -2,17 +2,11 @@
 
 use crate::study::Study;
 use crate::{
-    clement_cylinder_drag, clement_falling_cylinder, clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3,
-    clement_fig_5_17, clement_fig_6_11, clement_lubrication, clement_modified_kroll_peaks,
-    clement_sedimentation, clement_sphere_drag, lan_kinetic_theory, lan_self_diffusion, lan_stiffness,
-    clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11, clement_heap,
-    clement_modified_kroll_peaks, clement_thrown_bed, clement_tilt, lan_kinetic_theory, lan_self_diffusion,
+    clement_cavity, clement_cylinder_drag, clement_falling_cylinder, clement_fig_2_4_to_2_7,
+    clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11, clement_heap, clement_lubrication,
+    clement_modified_kroll_peaks, clement_sedimentation, clement_sphere_drag, clement_thrown_bed,
+    clement_tilt, lan_arching, lan_convection, lan_kinetic_theory, lan_large_sphere, lan_self_diffusion,
     lan_stiffness,
-    clement_cavity, clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11,
-    clement_modified_kroll_peaks, lan_kinetic_theory, lan_self_diffusion, lan_stiffness,
-    clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11,
-    clement_modified_kroll_peaks, lan_arching, lan_convection, lan_kinetic_theory, lan_large_sphere,
-    lan_self_diffusion, lan_stiffness,
 };
 
 /// A study whose folder and id agree.
@@ -72,6 +66,7 @@ pub const MENU: &[Study] = &[
         "Drag of a falling sphere over its Reynolds number (Clément 2009)",
         clement_sphere_drag::run
     ),
+    study!(
         "clement-thrown-bed",
         "A bed in water thrown by a shaken cell, rung by rung (Clément 2009)",
         clement_thrown_bed::run

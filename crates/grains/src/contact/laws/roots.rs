@@ -39,7 +39,7 @@ mod tests {
         for e in -36..=36 {
             let y = 10f64.powf(f64::from(e) / 6.0);
             // Rounding of the power and of the last step, a few units of 1.1e-16 each.
-            if e <= 0 && e >= -12 {
+            if (-12..=0).contains(&e) {
                 let third = super::cube_root((y * y * y).clamp(1e-6, 1.0)) / y - 1.0;
                 assert!(third.abs() < 2e-15, "y {y:e}: {third:e}");
             }
