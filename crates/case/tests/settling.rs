@@ -50,6 +50,7 @@ to = ["8 mm", "12 mm", "12 mm"]
 until_settled = true
 
 [contact]
+rotation = false
 stiffness = 500
 restitution = 0.3
 friction = 0.4

@@ -19,7 +19,7 @@ fn report(name: &str, changes: &[&str]) -> String {
 }
 
 /// Settling cut short, a few steps, pictures at the end.
-const SHORT: [&str; 3] = ["time.settle=1 ms", "time.end=5 ms", "output.pictures=2"];
+const SHORT: [&str; 3] = ["time.settle=1 ms", "time.end=2 ms", "output.pictures=2"];
 
 fn shows_the_flow(html: &str) -> bool {
     html.contains("longest arrow") && html.contains(">Fluid<") && html.contains(">Grains<")
@@ -31,7 +31,7 @@ fn a_partition_with_holes_an_intruder_and_a_cell_without_weight_run() {
         assert!(shows_the_flow(&report(name, &SHORT)), "{name}");
     }
     // 50 Hz: the flow is drawn at 135 and 225 degrees of the last cycle.
-    let html = report("layers", &["time.end=1 cycles", "grains.0.count=12", "output.pictures=2"]);
+    let html = report("layers", &["time.end=1 cycles", "grains.0.count=12", "output.pictures=1"]);
     assert!(shows_the_flow(&html));
     assert_eq!(html.matches("longest arrow").count(), 4, "two pictures, each with alternative text");
 }
@@ -40,7 +40,7 @@ fn a_partition_with_holes_an_intruder_and_a_cell_without_weight_run() {
 fn every_coupled_rung_shows_its_flow() {
     let few = [
         "grains.0.count=4",
-        "cell.size=[\"8 mm\", \"8 mm\", \"8 mm\"]",
+        "cell.size=[\"10 mm\", \"6 mm\", \"6 mm\"]",
         "time.end=1 cycles",
         "output.pictures=2",
     ];
