@@ -51,7 +51,7 @@ impl Bed {
     /// What `of` finds in the mean field of all seeds, with its error by the jackknife over the seeds.
     ///
     /// Scatter gives every cell a speed, which falls with the time of the mean: the mean field of three
-    /// runs of 30 s is as good as the 80 s of the thesis, the mean speed of three such fields is not.
+    /// runs of 15 s is as good as one of 45 s, the mean speed of three such fields is not.
     fn pooled(&self, what: &str, of: impl Fn(&Field) -> f64) -> Computed {
         let n = self.fields.len();
         let value = of(&Field::mean(self.fields.iter()));

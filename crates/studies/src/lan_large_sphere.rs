@@ -13,8 +13,8 @@ const CASE: (&str, &str) =
 const SMALL: f64 = 0.1;
 const LARGE: f64 = 0.3;
 
-/// Restitution between grains, and at the walls (Fig. A5.15).
-const RESTITUTIONS: [(f64, f64); 4] = [(0.6, 0.6), (0.6, 0.9), (0.9, 0.6), (0.9, 0.9)];
+/// Frequency of the floor, Hz.
+const FLOOR: f64 = 7.0;
 
 /// Samples per cycle of the tables `height` and `trajectory`, and cycles in a running mean (1 s).
 const HEIGHTS: usize = 12;
@@ -35,8 +35,7 @@ struct Run {
 }
 
 impl Bed {
-    fn new(name: &str, overrides: &[String], request: &Request) -> Result<Self, Failure> {
-        let seeds = if request.quick { &SEEDS[..1] } else { &SEEDS };
+    fn new(name: &str, overrides: &[String], seeds: &[u64], request: &Request) -> Result<Self, Failure> {
         let run = |seed: &u64| {
             let mut all = overrides.to_vec();
             all.push(format!("seed={seed}"));
@@ -90,12 +89,19 @@ impl Run {
         (h.iter().map(|p| p[1]).fold(0.0, f64::max) - h[0][1]) / SMALL
     }
 
-    /// Frequency of the largest power of the vertical velocity, Hz. What is slower than the window of a
-    /// second belongs to the rise itself.
+    /// Frequency of the largest power of the vertical velocity below the floor's, Hz. What is slower than
+    /// the window of a second belongs to the rise itself.
     fn peak(&self) -> f64 {
         let (f, p) = (column(&self.spectrum, "frequency"), column(&self.spectrum, "velocity_z"));
-        let best = (0..f.len()).filter(|&k| f[k] > 1.0).max_by(|&a, &b| p[a].total_cmp(&p[b]));
-        best.map_or(f64::NAN, |k| f[k])
+        let slow = (0..f.len()).filter(|&k| f[k] > 1.0 && f[k] < FLOOR - 0.5);
+        slow.max_by(|&a, &b| p[a].total_cmp(&p[b])).map_or(f64::NAN, |k| f[k])
+    }
+
+    /// Power within half a hertz of the published peak over that within half a hertz of the floor's frequency.
+    fn slow_over_floor(&self) -> f64 {
+        let (f, p) = (column(&self.spectrum, "frequency"), column(&self.spectrum, "velocity_z"));
+        let power = |of: f64| (0..f.len()).filter(|&k| (f[k] - of).abs() <= 0.5).map(|k| p[k]).sum::<f64>();
+        power(2.5) / power(FLOOR)
     }
 
     /// Rate of rise of the grains under the sphere over its own, while it goes up.
@@ -166,12 +172,31 @@ impl Run {
     }
 }
 
-/// The beds of Fig. A5.15.
-fn restitution((grains, walls): (f64, f64), more: &[&str], request: &Request) -> Result<Bed, Failure> {
-    let mut overrides =
-        vec![format!("contact.restitution={grains}"), format!("contact.pairs.0.restitution={walls}")];
-    overrides.extend(more.iter().map(ToString::to_string));
-    Bed::new(&format!("restitution {grains} and {walls}"), &overrides, request)
+/// A bed of Fig. A5.15.
+fn restitution(
+    (grains, walls): (f64, f64),
+    end: &str,
+    seeds: &[u64],
+    request: &Request,
+) -> Result<Bed, Failure> {
+    let overrides = [
+        format!("contact.restitution={grains}"),
+        format!("contact.pairs.0.restitution={walls}"),
+        format!("time.end={end}"),
+    ];
+    Bed::new(&format!("restitution {grains} and {walls}"), &overrides, seeds, request)
+}
+
+/// A wider cell, the sphere in its middle.
+fn cell(name: &str, width: f64, depth: f64, count: u32, request: &Request) -> Result<Bed, Failure> {
+    let overrides = [
+        format!("cell.size=[{width}, {depth}, 2.1]"),
+        format!("cell.y={}", if depth < LARGE { "flat" } else { "periodic" }),
+        format!("grains.0.count={count}"),
+        format!("grains.1.at=[{}, {}, {}]", 0.5 * width, 0.5 * depth, 0.5 * LARGE),
+        "time.end=40 s".into(),
+    ];
+    Bed::new(name, &overrides, &SEEDS[..1], request)
 }
 
 /// The quantities and plots.
@@ -180,57 +205,45 @@ fn restitution((grains, walls): (f64, f64), more: &[&str], request: &Request) ->
 /// Whatever a run fails with.
 pub fn run(request: &Request) -> Result<Ran, Failure> {
     if request.quick {
-        let bed = restitution(RESTITUTIONS[0], &["time.end=12 s"], request)?;
-        let computed = vec![bed.mean("rise", Run::rise), bed.mean("peak of the spectrum", Run::peak)];
+        let bed = restitution((0.6, 0.6), "12 s", &SEEDS[..1], request)?;
+        let computed =
+            vec![bed.mean("rise", Run::rise), bed.mean("peak of the spectrum below 7 Hz", Run::peak)];
         return Ok(Ran { computed, figures: vec![heights("Height of the sphere", &[&bed])] });
     }
-    let beds: Vec<Bed> =
-        RESTITUTIONS.iter().map(|&e| restitution(e, &[], request)).collect::<Result<_, _>>()?;
-    let cell = |width: &str, depth: &str| format!("cell.size=[\"{width}\", \"{depth}\", \"2.1 m\"]");
-    let wide = Bed::new(
-        "20d cell",
-        &[
-            cell("2.0 m", "0.3 m"),
-            "grains.0.count=573".into(),
-            "grains.1.at=[\"1.0 m\", \"0.15 m\", \"0.15 m\"]".into(),
-        ],
-        request,
-    )?;
-    let widest = Bed::new(
-        "100d cell",
-        &[
-            cell("10.0 m", "0.1 m"),
-            "cell.y=flat".into(),
-            "grains.0.count=955".into(),
-            "grains.1.at=[\"5.0 m\", \"0.05 m\", \"0.15 m\"]".into(),
-        ],
-        request,
-    )?;
-    let times: Vec<Computed> = beds.iter().map(Bed::time_to_the_top).collect();
-    let ratio = |name: &str, a: usize, b: usize| Computed::new(name, times[a].value / times[b].value);
-    let soft = &beds[0];
+    let soft = restitution((0.6, 0.6), "40 s", &SEEDS, request)?;
+    let wide = cell("20d cell", 2.0, 0.3, 573, request)?;
+    let hard = restitution((0.9, 0.9), "80 s", &SEEDS[..1], request)?;
+    let hard_walls = restitution((0.6, 0.9), "80 s", &SEEDS[..1], request)?;
+    let hard_grains = restitution((0.9, 0.6), "80 s", &SEEDS[..1], request)?;
+    let widest = cell("100d cell", 10.0, 0.1, 955, request)?;
+    let ratio = |name: &str, a: &Bed, b: &Bed| {
+        Computed::new(name, a.time_to_the_top().value / b.time_to_the_top().value)
+    };
     let computed = vec![
-        times[0].clone(),
-        times[3].clone(),
-        ratio("time to the top at restitution 0.9 over that at 0.6", 3, 0),
-        ratio("time to the top with grains of 0.9 and walls of 0.6 over the reverse", 2, 1),
+        soft.time_to_the_top(),
+        hard.time_to_the_top(),
+        ratio("time to the top at restitution 0.9 over that at 0.6", &hard, &soft),
+        ratio("time to the top with hard grains over that with hard walls", &hard_grains, &hard_walls),
         soft.mean("rise", Run::rise),
         soft.mean("deepest after it came up", Run::deepest_afterwards),
         wide.time_to_the_top(),
         wide.mean("deepest after it came up", Run::deepest_afterwards),
         widest.mean("rise", Run::rise),
         soft.mean("rate of the grains under it over its own", Run::rate_under_it),
-        soft.mean("peak of the spectrum", Run::peak),
+        soft.mean("peak of the spectrum below 7 Hz", Run::peak),
+        soft.mean("power around 2.5 Hz over that around 7 Hz", Run::slow_over_floor),
         soft.mean("contacts while the floor rises over those while it falls", Run::contacts_rising),
         soft.mean("fewest contacts while the floor falls", Run::fewest_contacts),
         soft.mean("correlation of contacts and velocity", Run::correlation),
     ];
-    let all: Vec<&Bed> = beds.iter().collect();
     let figures = vec![
-        heights("Height of the sphere against restitution (Fig. A5.15)", &all),
-        heights("Height of the sphere against the cell (Figs A5.12, A5.13)", &[soft, &wide, &widest]),
-        spectra(soft),
-        cycle(soft),
+        heights(
+            "Height of the sphere against restitution (Fig. A5.15)",
+            &[&soft, &hard_walls, &hard_grains, &hard],
+        ),
+        heights("Height of the sphere against the cell (Figs A5.12, A5.13)", &[&soft, &wide, &widest]),
+        spectra(&soft),
+        cycle(&soft),
     ];
     Ok(Ran { computed, figures })
 }
