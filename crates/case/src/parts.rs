@@ -35,7 +35,7 @@ pub fn shaking(v: &Values) -> Motion {
 /// Whether the shaker moves the floor alone.
 #[must_use]
 pub fn shakes_the_floor(v: &Values) -> bool {
-    v.table_opt("shaking").is_some_and(|s| s.text("of") == "floor")
+    v.table_opt("shaking").is_some_and(|s| s.text_opt("of") == Some("floor"))
 }
 
 /// The motion that a table describes; `gravity` in m/s².

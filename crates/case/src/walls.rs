@@ -82,7 +82,7 @@ pub(crate) fn hole(arrangement: Arrangement) -> f64 {
 /// Arrangement and radius of the bumps of a side.
 pub(crate) fn bumps(v: &Values, side: &str) -> Option<(Arrangement, f64)> {
     let wall = side_table(v, side)?;
-    let arrangement = match wall.text("surface") {
+    let arrangement = match wall.text_opt("surface")? {
         "bumpy-square" => Arrangement::Square,
         "bumpy-triangular" => Arrangement::Triangular,
         _ => return None,
