@@ -31,6 +31,8 @@ pub struct Built {
 pub struct Facts {
     /// Shortest contact, s.
     pub contact_time: f64,
+    /// Largest stable step of a packed bed, s.
+    pub packed_step: f64,
     /// Speed that contact times and overlaps are quoted for, m/s.
     pub speed: f64,
     /// Largest expected overlap over the smaller diameter at that speed.
@@ -330,7 +332,8 @@ fn facts(
     let thrown = 2.0 * parts::peak_speed(v);
     let own = grains.velocity.iter().map(|u| u.length()).fold(0.0, f64::max);
     let speed = if thrown > 0.0 { thrown.max(own) } else { fall.max(own) }.max(1e-3);
-    let mut f = Facts { contact_time: f64::INFINITY, speed, shake, ..Facts::default() };
+    let mut f =
+        Facts { contact_time: f64::INFINITY, packed_step: f64::INFINITY, speed, shake, ..Facts::default() };
     for (n, a) in bodies.iter().enumerate() {
         for b in bodies[n..].iter().chain(&walls) {
             let Some((time, overlap)) = contact::duration(contact, materials, *a, *b, speed) else {
@@ -349,6 +352,8 @@ fn facts(
                 return f;
             };
             f.contact_time = f.contact_time.min(time);
+            let packed = contact::packed_step(contact, materials, *a, *b, overlap);
+            f.packed_step = f.packed_step.min(packed.unwrap_or(f64::INFINITY));
             f.overlap = f.overlap.max(overlap / (2.0 * a.radius.min(b.radius)));
             if let (Some(x), Some(y)) = (materials[a.material].elastic, materials[b.material].elastic) {
                 use brazilnut_grains::material as solid;

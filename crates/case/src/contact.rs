@@ -3,7 +3,7 @@
 use crate::issue::Issues;
 use brazilnut_base::values::{Value, Values};
 use brazilnut_grains::contact::{NormalLaw, RollingLaw, TangentialLaw};
-use brazilnut_grains::material as solid;
+use brazilnut_grains::material::{self as solid, Across};
 use brazilnut_grains::{ContactSpec, Material, PairSpec, PairTable};
 
 /// The laws and the constants of all pairs of `materials`.
@@ -82,6 +82,16 @@ pub struct Body {
     pub material: usize,
 }
 
+/// Stiffness of a Hertzian contact, N m^(-3/2): as given, else from the materials.
+fn hertz_stiffness(pair: &PairSpec, materials: &[Material], a: Body, b: Body) -> Option<f64> {
+    let r = 1.0 / (1.0 / a.radius + 1.0 / b.radius);
+    let from_moduli = || {
+        let (x, y) = (materials[a.material].elastic?, materials[b.material].elastic?);
+        Some(solid::hertz_stiffness(r, solid::effective_modulus(&x, &y)))
+    };
+    pair.stiffness.or_else(from_moduli)
+}
+
 /// Duration (s) and largest overlap (m) of a head-on contact of two bodies that meet at `speed` (m/s).
 #[must_use]
 pub fn duration(
@@ -95,12 +105,7 @@ pub fn duration(
     let m = 1.0 / (1.0 / a.mass + 1.0 / b.mass);
     let e = pair.restitution;
     if is_hertz(spec.normal) {
-        let r = 1.0 / (1.0 / a.radius + 1.0 / b.radius);
-        let k = match (pair.stiffness, materials[a.material].elastic, materials[b.material].elastic) {
-            (Some(k), ..) => k,
-            (None, Some(x), Some(y)) => solid::hertz_stiffness(r, solid::effective_modulus(&x, &y)),
-            _ => return None,
-        };
+        let k = hertz_stiffness(pair, materials, a, b)?;
         return Some((solid::hertz_contact_time(m, k, speed), solid::hertz_overlap(m, k, speed)));
     }
     let k = pair.stiffness?;
@@ -111,4 +116,46 @@ pub fn duration(
         solid::linear_contact_time(m, k, solid::linear_damping(m, k, e))
     };
     Some((time, overlap))
+}
+
+/// Largest stable step (s) of a packed bed whose contacts are like that of `a` and `b`, at the overlap `overlap` (m)
+/// where their stiffness depends on it.
+#[must_use]
+pub fn packed_step(
+    spec: &ContactSpec,
+    materials: &[Material],
+    a: Body,
+    b: Body,
+    overlap: f64,
+) -> Option<f64> {
+    let pair = spec.pairs.get(a.material, b.material);
+    let m = 1.0 / (1.0 / a.mass + 1.0 / b.mass);
+    let e = pair.restitution;
+    let (omega, zeta) = match spec.normal {
+        NormalLaw::Linear => ((pair.stiffness? / m).sqrt(), solid::damping_ratio(e)),
+        // Unloading is the stiffer of the two branches; it loses no energy by damping.
+        NormalLaw::WaltonBraun => ((solid::latching_unloading_stiffness(pair.stiffness?, e) / m).sqrt(), 0.0),
+        NormalLaw::Hertz | NormalLaw::DampedHertz => {
+            let k = hertz_stiffness(pair, materials, a, b)?;
+            let omega = (1.5 * k * overlap.sqrt() / m).sqrt();
+            let damping = match spec.normal {
+                NormalLaw::Hertz => {
+                    5.0_f64.sqrt() * solid::damping_ratio(e) * (m * k).sqrt() * overlap.powf(0.25)
+                }
+                _ => {
+                    let beta = solid::viscous_damping_number(e);
+                    solid::viscous_damping(beta, m, k, pair.at_speed?) * overlap.sqrt()
+                }
+            };
+            (omega, damping / (2.0 * m * omega))
+        }
+    };
+    let (zeta, across) = match (spec.tangential, pair.tangential_damping) {
+        (TangentialLaw::None, _) => (zeta, Across::Nothing),
+        (TangentialLaw::Coulomb, None) => (zeta, Across::Coulomb),
+        // A given dashpot weighs with the normal one: z/3 of 2 zeta h beside 2z/3 of gamma dt/m.
+        (TangentialLaw::Coulomb, Some(gamma)) => (zeta + gamma / (m * omega), Across::Nothing),
+        _ => (zeta, Across::Springs),
+    };
+    Some(solid::packed_step(omega, zeta, across))
 }

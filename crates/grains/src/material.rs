@@ -7,6 +7,7 @@ pub mod collision;
 mod elastic;
 mod latching;
 mod linear;
+mod stability;
 
 pub use collision::{Collision, collide, viscous_damping, viscous_damping_number};
 pub use elastic::{
@@ -18,6 +19,7 @@ pub use linear::{
     damping_ratio, linear_contact_time, linear_damping, linear_overlap, linear_restitution,
     linear_stiffness_for_contact_time, stiffness_for_overlap,
 };
+pub use stability::{Across, RELAXED_PER_STEP, largest_stable_step, packed_step, stability_share};
 
 use brazilnut_base::keys::{Check, Key, Kind};
 use brazilnut_base::units::Dimension;

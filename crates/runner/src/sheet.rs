@@ -130,6 +130,18 @@ fn contacts(s: &mut Sheet, b: &Built) {
             f.contact_time / grain
         ));
     }
+    let packed = f.contact_time / f.packed_step;
+    s.row(
+        "packed bed",
+        si(f.packed_step, "s"),
+        format!("largest stable step, {packed:.1} steps per contact"),
+    );
+    if grain > f.packed_step {
+        s.warn(format!(
+            "a packed bed is stiffer than a pair of grains and more strongly damped: steps of {} may make it rattle and gain energy; take `steps_per_contact` above {packed:.1}, or a higher restitution",
+            si(grain, "s")
+        ));
+    }
     if clock.substeps > 1 {
         s.row("fluid step", si(clock.dt, "s"), format!("{} grain steps each", clock.substeps));
     }

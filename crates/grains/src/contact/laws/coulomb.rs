@@ -8,7 +8,8 @@ use crate::spec::SpecError;
 ///
 /// The explicit dashpot must stay stable with a dozen neighbours per grain
 /// and, when grains rotate, 7/2 times lighter contacts.
-const RELAXATION_STEPS: [f64; 2] = [8.0, 28.0];
+const RELAXATION_STEPS: [f64; 2] =
+    [1.0 / crate::material::RELAXED_PER_STEP, 3.5 / crate::material::RELAXED_PER_STEP];
 
 /// F_t = -min(mu F_n, gamma_t |v_t|) v_t/|v_t|, F_n = max(0, F_el + F_damp) (Clément eq. 2.3, corrected).
 ///
