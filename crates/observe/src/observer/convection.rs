@@ -182,9 +182,13 @@ impl Observe for Convection {
             title: "Displacement field J".into(),
             caption: format!(
                 "Displacements per cycle credited half to the cell left and half to the cell reached (Clément eq. 4.1), summed over \
-                 the grains of each cell of {:.3e} m by {:.3e} m and averaged over {n} cycles. \
-                 Strength J = {:.3e} ± {:.1e} m per cycle; shuffled displacements give {noise:.3e} m.",
-                a.width, b.width, j.value, j.error
+                 the grains of each cell of {:.2} mm by {:.2} mm and averaged over {n} cycles; cells without grains are left blank. \
+                 Strength J = {:.1} ± {:.1} µm per cycle; the noise floor, the same displacements shuffled among the grains, is {:.1} µm.",
+                1e3 * a.width,
+                1e3 * b.width,
+                1e6 * j.value,
+                1e6 * j.error,
+                1e6 * noise
             ),
             body: Body::Map {
                 x: Axis::linear(AXES[a.axis], "m"),
@@ -192,7 +196,7 @@ impl Observe for Convection {
                 raster: Some(Raster {
                     shape: [a.count, b.count],
                     extent,
-                    values: (0..self.grid.len()).map(|k| size(vector(k))).collect(),
+                    values: (0..self.grid.len()).map(|k| blank_if_zero(size(vector(k)))).collect(),
                     label: "|J|".into(),
                     unit: "m".into(),
                 }),
@@ -223,6 +227,11 @@ impl Observe for Convection {
         };
         vec![map, history]
     }
+}
+
+/// A cell in which nothing has ever moved holds no grains: no colour.
+fn blank_if_zero(x: f64) -> f64 {
+    if x > 0.0 { x } else { f64::NAN }
 }
 
 impl Convection {
