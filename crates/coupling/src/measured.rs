@@ -71,11 +71,11 @@ mod tests {
             state.leak.book(&Tally { slip, speed: 1.0, ..Tally::default() });
             Measured::of(&spec, state)
         };
-        let tight = after(&mut state, 0.05);
-        assert_eq!(tight.numbers[0].1, 0.05);
+        let tight = after(&mut state, 0.0625);
+        assert_eq!(tight.numbers[0].1, 0.0625);
         assert!(tight.warnings.is_empty());
-        let open = after(&mut state, 0.35);
-        assert_eq!(open.numbers[0].1, 0.2);
+        let open = after(&mut state, 0.4375);
+        assert_eq!(open.numbers[0].1, 0.25);
         assert_eq!(open.warnings.len(), 1);
     }
 }
