@@ -12,7 +12,7 @@ use crate::contact::{ContactSweep, dispatch};
 use crate::neighbors::grid::Grid;
 use crate::neighbors::handover::Handover;
 use crate::neighbors::order::Order;
-use crate::packed::{Row, Shifts, Spin};
+use crate::packed::Shifts;
 use crate::spec::{DemSpec, SpecError};
 use crate::wall::Walls;
 use brazilnut_base::Vec3;
@@ -34,8 +34,6 @@ pub struct Dem {
 /// Buffers that keep their size from step to step.
 #[derive(Default)]
 struct Scratch {
-    rows: Vec<Row>,
-    spins: Vec<Spin>,
     work: Vec<Work>,
     grid: Grid,
     order: Order,

@@ -10,92 +10,45 @@ use crate::motion::{self, Movers, Pace, Scheme};
 use crate::packed::{Half, Rest, Row, Shifts, Spin, Tag};
 use crate::state::{DemState, Lists, Pairs};
 use crate::wall::Walls;
+use rayon::prelude::*;
 use std::marker::PhantomData;
 
-/// What all blocks share in a step.
-pub struct Block<'a, F> {
-    /// All rows at the start of the step.
+/// What all blocks share while forces are found.
+pub struct Block<'a> {
+    /// All rows.
     pub rows: &'a [Row],
     /// All spins.
     pub spins: &'a [Spin],
-    /// Who they are.
-    pub tags: &'a [Tag],
     /// Rows from here on are big bodies.
     pub small: usize,
+    /// Number of grains.
+    pub grains: usize,
     /// The contact law.
     pub law: &'a dyn ContactSweep,
     /// The walls at the start of the step.
     pub walls: &'a Walls,
     /// Shifts to periodic images.
     pub shifts: &'a Shifts,
-    /// Instructions for the motion.
-    pub level: Level,
-    /// The step.
-    pub pace: &'a Pace,
-    /// What acts from outside.
-    pub field: &'a F,
+    /// Length of the step, s.
+    pub dt: f64,
 }
 
-/// What a block alone writes.
-pub struct Own<'a> {
-    /// Rows at the end of the step.
-    pub rows: &'a mut [Row],
-    /// Spins at the end of the step.
-    pub spins: &'a mut [Spin],
-    /// Half-step velocities.
-    pub halves: &'a mut [Half],
-    /// Orientations.
-    pub rest: &'a mut [Rest],
-    /// Higher derivatives, maybe none.
-    pub higher: &'a mut [[f64; 12]],
-}
-
-impl<'a> Own<'a> {
-    /// The first `at` grains, and the others.
-    pub fn split(self, at: usize) -> (Self, Self) {
-        let (rows, rows_2) = self.rows.split_at_mut(at);
-        let (spins, spins_2) = self.spins.split_at_mut(at);
-        let (halves, halves_2) = self.halves.split_at_mut(at);
-        let (rest, rest_2) = self.rest.split_at_mut(at);
-        let (higher, higher_2) = self.higher.split_at_mut(at.min(self.higher.len()));
-        (
-            Self { rows, spins, halves, rest, higher },
-            Self { rows: rows_2, spins: spins_2, halves: halves_2, rest: rest_2, higher: higher_2 },
-        )
-    }
-}
-
-impl<F: Field> Block<'_, F> {
-    /// Runs the blocks of `lists`, in halves on two threads if `parallel`.
-    pub fn each<S: Scheme>(&self, lists: &mut [Lists], work: &mut [Work], own: Own<'_>, parallel: bool) {
-        match lists {
-            [] => {}
-            [only] => {
-                self.clear(only, &mut work[0]);
-                self.contacts(only, &mut work[0]);
-                self.motion::<S>(only, &mut work[0], own);
-            }
-            _ => {
-                let middle = lists.len() / 2;
-                let at = lists[middle].start - lists[0].start;
-                let (lists, lists_2) = lists.split_at_mut(middle);
-                let (work, work_2) = work.split_at_mut(middle);
-                let (own, own_2) = own.split(at);
-                if parallel {
-                    rayon::join(
-                        || self.each::<S>(lists, work, own, true),
-                        || self.each::<S>(lists_2, work_2, own_2, true),
-                    );
-                } else {
-                    self.each::<S>(lists, work, own, false);
-                    self.each::<S>(lists_2, work_2, own_2, false);
-                }
-            }
+impl Block<'_> {
+    /// Finds the forces of every block of `lists`.
+    pub fn each(&self, lists: &mut [Lists], work: &mut [Work], parallel: bool) {
+        let one = |(lists, work): (&mut Lists, &mut Work)| {
+            self.clear(lists, work);
+            self.contacts(lists, work);
+        };
+        if parallel {
+            lists.par_iter_mut().zip(work).for_each(one);
+        } else {
+            lists.iter_mut().zip(work).for_each(one);
         }
     }
 
-    /// Runs the block of the big bodies after the others have left their forces in `small`.
-    pub fn big<S: Scheme>(&self, lists: &mut Lists, work: &mut Work, small: &[Work], own: Own<'_>) {
+    /// Finds those on the big bodies after the others have left their forces in `small`.
+    pub fn big(&self, lists: &mut Lists, work: &mut Work, small: &[Work]) {
         self.clear(lists, work);
         let big = lists.end - lists.start;
         for other in small {
@@ -113,13 +66,12 @@ impl<F: Field> Block<'_, F> {
             }
         }
         self.contacts(lists, work);
-        self.motion::<S>(lists, work, own);
     }
 
     fn clear(&self, lists: &Lists, work: &mut Work) {
         let own = lists.end - lists.start;
-        let big = if lists.start < self.small { self.tags.len() - self.small } else { 0 };
-        work.clear(own + big, self.walls.len(), self.law.rolls());
+        let big = if lists.start < self.small { self.grains - self.small } else { 0 };
+        work.clear(own, big, self.walls.len(), self.law.rolls());
     }
 
     /// All contacts of the block.
@@ -144,7 +96,7 @@ impl<F: Field> Block<'_, F> {
                 base: lists.start,
                 walls: self.walls,
                 loads: &mut work.loads,
-                dt: self.pace.tick.dt,
+                dt: self.dt,
             },
             &mut work.tally,
         );
@@ -167,46 +119,113 @@ impl<F: Field> Block<'_, F> {
                 base,
                 adds,
                 shifts: self.shifts,
-                dt: self.pace.tick.dt,
+                dt: self.dt,
             },
             counted,
         );
     }
+}
 
-    fn motion<S: Scheme>(&self, lists: &Lists, work: &mut Work, own: Own<'_>) {
-        let rows = lists.start..lists.end;
-        let mut movers = Movers {
-            rows: &self.rows[rows.clone()],
-            next_rows: own.rows,
-            spins: &self.spins[rows.clone()],
-            next_spins: own.spins,
-            halves: own.halves,
-            higher: own.higher,
-            rest: own.rest,
-            tags: &self.tags[rows],
-            forces: &work.forces,
-            couples: &work.couples,
-        };
-        let motion =
-            Motion::<S, F> { movers: &mut movers, pace: self.pace, field: self.field, scheme: PhantomData };
-        work.passed = self.level.run(motion);
+/// What all blocks share while grains move.
+pub struct Course<'a, F> {
+    /// Who the grains are.
+    pub tags: &'a [Tag],
+    /// Instructions for the formulae, which are four lanes wide already.
+    pub level: Level,
+    /// The step.
+    pub pace: &'a Pace,
+    /// What acts from outside.
+    pub field: &'a F,
+}
+
+/// What a block alone writes.
+pub struct Own<'a> {
+    /// Rows.
+    pub rows: &'a mut [Row],
+    /// Spins.
+    pub spins: &'a mut [Spin],
+    /// Half-step velocities.
+    pub halves: &'a mut [Half],
+    /// Orientations.
+    pub rest: &'a mut [Rest],
+    /// Higher derivatives, maybe none.
+    pub higher: &'a mut [[f64; 12]],
+}
+
+impl<'a> Own<'a> {
+    /// The first `at` grains, and the others.
+    fn split(self, at: usize) -> (Self, Self) {
+        let (rows, rows_2) = self.rows.split_at_mut(at);
+        let (spins, spins_2) = self.spins.split_at_mut(at);
+        let (halves, halves_2) = self.halves.split_at_mut(at);
+        let (rest, rest_2) = self.rest.split_at_mut(at);
+        let (higher, higher_2) = self.higher.split_at_mut(at.min(self.higher.len()));
+        (
+            Self { rows, spins, halves, rest, higher },
+            Self { rows: rows_2, spins: spins_2, halves: halves_2, rest: rest_2, higher: higher_2 },
+        )
     }
 }
 
-/// The motion of one block, for whatever instructions the machine has: the formulae are four lanes wide already.
-struct Motion<'a, 'm, S, F> {
-    movers: &'a mut Movers<'m>,
-    pace: &'a Pace,
-    field: &'a F,
+impl<F: Field> Course<'_, F> {
+    /// Moves the grains of every block of `lists`, in halves on two threads if `parallel`.
+    pub fn each<S: Scheme>(&self, lists: &[Lists], work: &mut [Work], own: Own<'_>, parallel: bool) {
+        match lists {
+            [] => {}
+            [only] => self.level.run(Motion::<S, F> {
+                course: self,
+                work: &mut work[0],
+                tags: &self.tags[only.start..only.end],
+                own,
+                scheme: PhantomData,
+            }),
+            _ => {
+                let middle = lists.len() / 2;
+                let at = lists[middle].start - lists[0].start;
+                let (lists, lists_2) = lists.split_at(middle);
+                let (work, work_2) = work.split_at_mut(middle);
+                let (own, own_2) = own.split(at);
+                if parallel {
+                    rayon::join(
+                        || self.each::<S>(lists, work, own, true),
+                        || self.each::<S>(lists_2, work_2, own_2, true),
+                    );
+                } else {
+                    self.each::<S>(lists, work, own, false);
+                    self.each::<S>(lists_2, work_2, own_2, false);
+                }
+            }
+        }
+    }
+}
+
+/// The motion of one block.
+struct Motion<'a, S, F> {
+    course: &'a Course<'a, F>,
+    work: &'a mut Work,
+    tags: &'a [Tag],
+    own: Own<'a>,
     scheme: PhantomData<S>,
 }
 
-impl<S: Scheme, F: Field> Job for Motion<'_, '_, S, F> {
-    type Output = motion::Passed;
+impl<S: Scheme, F: Field> Job for Motion<'_, S, F> {
+    type Output = ();
 
     #[inline(always)]
-    fn run<R: Wide>(self) -> motion::Passed {
-        motion::advance::<S, F>(self.movers, self.pace, self.field)
+    fn run<R: Wide>(self) {
+        let Own { rows, spins, halves, rest, higher } = self.own;
+        let n = self.tags.len();
+        let mut movers = Movers {
+            rows: &mut rows[..n],
+            spins: &mut spins[..n],
+            halves: &mut halves[..n],
+            higher,
+            rest: &mut rest[..n],
+            tags: self.tags,
+            forces: &mut self.work.forces[..n],
+            couples: &self.work.couples,
+        };
+        self.work.passed = motion::advance::<S, F>(&mut movers, self.course.pace, self.course.field);
     }
 }
 

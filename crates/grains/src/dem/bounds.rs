@@ -55,11 +55,10 @@ impl Dem {
         if !all_pairs {
             let reach = 2.0 * state.radii[1] + state.skins.outer;
             scratch.grid.lay(&self.spec.cell, state.extent, reach, state.small);
-            let Scratch { order, grid, rows, spins, .. } = scratch;
-            order.sort(state, grid, rows, spins);
+            scratch.order.sort(state, &mut scratch.grid);
         }
         let parallel = self.parallel(state);
-        self.scratch.fit_work(&state.blocks);
+        self.scratch.work.resize_with(state.blocks.len(), Work::default);
         let Scratch { work, grid, .. } = &mut self.scratch;
         let scene =
             Scene { cell: &self.spec.cell, rows: &state.rows, small: state.small, skin: state.skins.outer };
@@ -86,7 +85,7 @@ impl Dem {
     /// Inner lists from the outer ones; `handed` if the outer ones are new.
     fn prune(&mut self, state: &mut DemState, handed: bool) {
         let parallel = self.parallel(state);
-        self.scratch.fit_work(&state.blocks);
+        self.scratch.work.resize_with(state.blocks.len(), Work::default);
         let Scratch { work, handover, .. } = &mut self.scratch;
         let prune = Prune {
             shifts: &self.shifts,

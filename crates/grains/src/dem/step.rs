@@ -1,13 +1,12 @@
 //! One step.
 
 use super::Dem;
-use super::block::{Block, Own};
+use super::block::{Block, Course, Own};
 use super::work::Work;
 use crate::field::Field;
 use crate::motion::{Gear, Kick, Pace, Passed, PositionVerlet, Scheme, VelocityVerlet};
-use crate::packed::DUMMIES;
 use crate::spec::Integrator;
-use crate::state::{DemState, Lists};
+use crate::state::DemState;
 use crate::wall::WallLoad;
 use brazilnut_base::Tick;
 
@@ -40,41 +39,37 @@ impl Dem {
         }
     }
 
-    /// Forces and motion, block by block; no block reads what another writes.
-    /// The big bodies come last, with the forces that the blocks found for them.
+    /// Forces, then motion, block by block; no block reads what another writes.
+    /// The big bodies' forces come last, with what the blocks found for them.
     fn sweep_and_move<S: Scheme, F: Field>(&mut self, state: &mut DemState, pace: &Pace, field: &F) {
         let parallel = self.parallel(state);
-        let scratch = &mut self.scratch;
-        scratch.fit(state);
+        let work = &mut self.scratch.work;
+        work.resize_with(state.blocks.len(), Work::default);
         let block = Block {
             rows: &state.rows,
             spins: &state.spins,
-            tags: &state.tags,
             small: state.small,
+            grains: state.tags.len(),
             law: &*self.law,
             walls: &self.walls,
             shifts: &self.shifts,
-            level: self.spec.search.sweep.level(),
-            pace,
-            field,
+            dt: pace.tick.dt,
         };
-        let n = state.tags.len();
+        let last = state.blocks.len() - 1;
+        let (lists, lists_big) = state.blocks.split_at_mut(last);
+        let (work_small, work_big) = work.split_at_mut(last);
+        block.each(lists, work_small, parallel);
+        block.big(&mut lists_big[0], &mut work_big[0], work_small);
+
+        let course = Course { tags: &state.tags, level: self.spec.search.sweep.level(), pace, field };
         let own = Own {
-            rows: &mut scratch.rows[..n],
-            spins: &mut scratch.spins[..n],
+            rows: &mut state.rows,
+            spins: &mut state.spins,
             halves: &mut state.halves,
             rest: &mut state.rest,
             higher: &mut state.higher,
         };
-        let (own, own_big) = own.split(state.small);
-        let last = state.blocks.len() - 1;
-        let (lists, lists_big) = state.blocks.split_at_mut(last);
-        let (work, work_big) = scratch.work.split_at_mut(lists.len());
-        block.each::<S>(lists, work, own, parallel);
-        block.big::<S>(&mut lists_big[0], &mut work_big[0], work, own_big);
-
-        std::mem::swap(&mut state.rows, &mut scratch.rows);
-        std::mem::swap(&mut state.spins, &mut scratch.spins);
+        course.each::<S>(&state.blocks, work, own, parallel);
     }
 
     /// Adds what the blocks found, in their order.
@@ -113,22 +108,5 @@ impl Dem {
     /// Whether there is enough work for more than one thread.
     pub(super) fn parallel(&self, state: &DemState) -> bool {
         state.blocks.len() > 2 && rayon::current_num_threads() > 1
-    }
-}
-
-impl super::Scratch {
-    /// Sizes the buffers of the next rows, dummies included.
-    fn fit(&mut self, state: &DemState) {
-        let n = state.tags.len();
-        if self.rows.len() != state.rows.len() || self.rows[n..] != state.rows[n..n + DUMMIES] {
-            self.rows.clone_from(&state.rows);
-            self.spins.clone_from(&state.spins);
-        }
-        self.fit_work(&state.blocks);
-    }
-
-    /// One work space per block.
-    pub(super) fn fit_work(&mut self, blocks: &[Lists]) {
-        self.work.resize_with(blocks.len(), Work::default);
     }
 }

@@ -11,6 +11,8 @@ use crate::wall::WallLoad;
 pub struct Work {
     /// Forces on the block's rows, then those of the block's grains on the big bodies.
     pub forces: Vec<Force>,
+    /// How many of them are the block's own.
+    own: usize,
     /// Rolling couples, likewise, if any law rolls.
     pub couples: Vec<Couple>,
     /// Loads on walls.
@@ -31,6 +33,7 @@ impl Default for Work {
     fn default() -> Self {
         Self {
             forces: vec![],
+            own: 0,
             couples: vec![],
             loads: vec![],
             tally: Tally::default(),
@@ -43,10 +46,15 @@ impl Default for Work {
 }
 
 impl Work {
-    /// Zero forces for `bodies` rows and `walls` walls.
-    pub fn clear(&mut self, bodies: usize, walls: usize, rolls: bool) {
-        zero(&mut self.forces, bodies);
-        zero(&mut self.couples, if rolls { bodies } else { 0 });
+    /// Zero forces for `own` rows, `big` bodies and `walls` walls. The motion leaves zeros on the block's own rows.
+    pub fn clear(&mut self, own: usize, big: usize, walls: usize, rolls: bool) {
+        if (self.own, self.forces.len()) == (own, own + big) {
+            self.forces[own..].fill(Force::default());
+        } else {
+            self.own = own;
+            zero(&mut self.forces, own + big);
+        }
+        zero(&mut self.couples, if rolls { own + big } else { 0 });
         zero(&mut self.loads, walls);
         self.tally = Tally::default();
         self.discard = Tally::default();

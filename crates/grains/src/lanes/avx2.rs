@@ -1,4 +1,4 @@
-//! Four lanes in one AVX register. Eight in two measured slower: half the values of a law were spilled.
+//! Four lanes in one AVX register. Eight in two are no faster: half the values of a law are spilled.
 #![allow(
     unsafe_code,
     reason = "instructions chosen at run time: a library that chooses at compile time cannot serve"

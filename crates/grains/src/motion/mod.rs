@@ -30,16 +30,12 @@ pub struct Pace {
     pub rotation: bool,
 }
 
-/// The rows of one block, in and out.
+/// The grains of one block.
 pub struct Movers<'a> {
-    /// Rows at the start of the step.
-    pub rows: &'a [Row],
-    /// Rows at its end.
-    pub next_rows: &'a mut [Row],
-    /// Spins at the start.
-    pub spins: &'a [Spin],
-    /// Spins at the end.
-    pub next_spins: &'a mut [Spin],
+    /// Rows.
+    pub rows: &'a mut [Row],
+    /// Spins.
+    pub spins: &'a mut [Spin],
     /// Half-step velocities.
     pub halves: &'a mut [Half],
     /// Higher derivatives, empty for schemes without.
@@ -48,8 +44,8 @@ pub struct Movers<'a> {
     pub rest: &'a mut [Rest],
     /// Who they are.
     pub tags: &'a [Tag],
-    /// Contact forces.
-    pub forces: &'a [Force],
+    /// Contact forces; zero afterwards.
+    pub forces: &'a mut [Force],
     /// Rolling couples, empty if there are none.
     pub couples: &'a [Couple],
 }
@@ -124,33 +120,32 @@ pub fn advance<S: Scheme, F: Field>(m: &mut Movers<'_>, pace: &Pace, field: &F) 
     let mut sums = Sums::nothing();
     let (free, turns) = (Quad::from(pace.free), Quad::from(pace.turns));
     for g in 0..m.rows.len() {
-        let (row, spin, forces) = (&m.rows[g].0, &m.spins[g].0, &m.forces[g].0);
+        let (row, spin, forces) = (&mut m.rows[g].0, &mut m.spins[g].0, &mut m.forces[g].0);
+        let (contact, lever) = (Quad::load(forces, 0), Quad::load(forces, 4));
+        *forces = [0.0; 8];
         let half = &mut m.halves[g].0;
         let push = field.push(&pace.tick, &grain_at(row, spin, half, m.tags[g]));
         let outside = Quad::from(push.gravity) + Quad::from(push.frame) + Quad::from(push.fluid);
         let mut none = [0.0; 12];
         let higher = if S::HIGHER { &mut m.higher[g] } else { &mut none };
 
-        let acceleration = (Quad::load(forces, 0) + outside) * row[7] * free;
+        let acceleration = (contact + outside) * row[7] * free;
         let (position, velocity) = (Quad::load(row, 0), Quad::load(row, 4));
         let moved = S::translate(position, velocity, half, higher, acceleration, pace);
-        let next = &mut m.next_rows[g].0;
-        moved.position.with(row[3]).store(next, 0);
-        moved.velocity.with(row[7]).store(next, 4);
+        moved.position.with(row[3]).store(row, 0);
+        moved.velocity.with(row[7]).store(row, 4);
 
         let mut turned = Quad::splat(0.0);
         if pace.rotation {
             let couple = m.couples.get(g).map_or(Quad::splat(0.0), |c| Quad(c.0));
             // half[7] is r/I and spin[3] is 1/r: torque over inertia.
-            let torque = (couple + Quad::from(push.torque)) * spin[3] - Quad::load(forces, 4);
+            let torque = (couple + Quad::from(push.torque)) * spin[3] - lever;
             let alpha = torque * half[7] * turns;
             let omega = Quad(*spin) * spin[3];
             let (mid, omega) = S::rotate(omega, half, higher, alpha, pace);
             turned = mid;
-            (omega * row[3]).with(spin[3]).store(&mut m.next_spins[g].0, 0);
+            (omega * row[3]).with(spin[3]).store(spin, 0);
             rotation::turn(&mut m.rest[g].orientation, Quad::load(half, 4) * (0.5 * pace.tick.dt));
-        } else {
-            m.next_spins[g].0 = *spin;
         }
         sums.note(pace, &push, &moved, turned);
     }

@@ -37,38 +37,70 @@ pub struct Prune<'a> {
     pub memory: Memory<'a>,
 }
 
-/// The list being replaced.
+/// Of the entries that are replaced: places in the outer list, and who touched.
 #[derive(Clone, Debug, Default)]
 pub struct Spare {
     from: Vec<u32>,
-    memory: Vec<f64>,
     touched: Vec<u8>,
 }
 
 impl Spare {
-    /// Takes a list's places, memory and touches and leaves its own buffers.
-    pub fn swap(&mut self, from: &mut Vec<u32>, memory: &mut Vec<f64>, touched: &mut Vec<u8>) {
+    /// Takes a list's places and touches and leaves empty buffers.
+    pub fn swap(&mut self, from: &mut Vec<u32>, touched: &mut Vec<u8>) {
         std::mem::swap(from, &mut self.from);
-        std::mem::swap(memory, &mut self.memory);
         std::mem::swap(touched, &mut self.touched);
+        from.clear();
+        touched.clear();
     }
 
-    /// Place in the outer list of old entry `q`.
-    #[must_use]
-    pub fn from(&self, q: usize) -> u32 {
-        self.from[q]
+    /// Moves what entries remember from their old places among the first `old` to those of `new`; zero where an
+    /// entry is new. Both lists are sorted by their place in the outer one. `touched` has a bit for each.
+    pub fn carry(&self, old: usize, new: &[u32], memory: &mut Vec<f64>, touched: &mut [u8], slots: usize) {
+        let old = &self.from[..old];
+        let padded = touched.len() * BATCH;
+        // To the front first, in order, so that nothing is written over before it is read, then apart from the back.
+        let mut kept = 0;
+        let mut p = 0;
+        for (q, place) in old.iter().enumerate() {
+            while p < new.len() && new[p] < *place {
+                p += 1;
+            }
+            if p < new.len() && new[p] == *place {
+                shift(memory, q, kept, slots);
+                kept += 1;
+            }
+        }
+        memory.resize(padded * slots, 0.0);
+        for p in new.len()..padded {
+            clear(memory, p, slots);
+        }
+        let mut q = old.len();
+        for p in (0..new.len()).rev() {
+            while q > 0 && old[q - 1] > new[p] {
+                q -= 1;
+            }
+            if q > 0 && old[q - 1] == new[p] {
+                kept -= 1;
+                shift(memory, kept, p, slots);
+                if has_touched(&self.touched, q - 1) {
+                    note_touched(touched, p);
+                }
+            } else {
+                clear(memory, p, slots);
+            }
+        }
     }
+}
 
-    /// Whether old entry `q` touched.
-    #[must_use]
-    pub fn touched(&self, q: usize) -> bool {
-        has_touched(&self.touched, q)
+fn shift(memory: &mut [f64], from: usize, to: usize, slots: usize) {
+    for s in 0..slots {
+        memory[memory_place(to, s, slots)] = memory[memory_place(from, s, slots)];
     }
+}
 
-    /// Old memory.
-    #[must_use]
-    pub fn memory(&self, place: usize) -> f64 {
-        self.memory[place]
+fn clear(memory: &mut [f64], p: usize, slots: usize) {
+    for s in 0..slots {
+        memory[memory_place(p, s, slots)] = 0.0;
     }
 }
 
@@ -76,11 +108,10 @@ impl Prune<'_> {
     /// Makes the inner list of `pairs` anew.
     #[inline(always)]
     pub fn run<R: Wide>(&self, pairs: &mut Pairs, spare: &mut Spare) {
-        spare.swap(&mut pairs.from, &mut pairs.memory, &mut pairs.touched);
+        spare.swap(&mut pairs.from, &mut pairs.touched);
         let old = if matches!(self.memory, Memory::Kept) { pairs.len } else { 0 };
         pairs.i.clear();
         pairs.j.clear();
-        pairs.from.clear();
         let skin = R::splat(self.skin);
         let mut indices = [0u32; BATCH];
         for base in (0..pairs.outer_i.len()).step_by(R::WIDTH) {
@@ -131,35 +162,62 @@ impl Prune<'_> {
     }
 
     fn carry(&self, pairs: &mut Pairs, spare: &Spare, old: usize) {
-        pairs.memory.clear();
-        pairs.memory.resize(pairs.i.len() * self.slots, 0.0);
-        pairs.touched.clear();
+        let slots = self.slots;
         pairs.touched.resize(pairs.i.len() / BATCH, 0);
         match self.memory {
-            Memory::Kept => {
-                let mut q = 0;
-                for p in 0..pairs.len {
-                    while q < old && spare.from[q] < pairs.from[p] {
-                        q += 1;
-                    }
-                    if q < old && spare.from[q] == pairs.from[p] && spare.touched(q) {
-                        note_touched(&mut pairs.touched, p);
-                        for s in 0..self.slots {
-                            pairs.memory[memory_place(p, s, self.slots)] =
-                                spare.memory[memory_place(q, s, self.slots)];
-                        }
-                    }
-                }
-            }
+            Memory::Kept => spare.carry(old, &pairs.from, &mut pairs.memory, &mut pairs.touched, slots),
             Memory::Handed(handover) => {
+                pairs.memory.clear();
+                pairs.memory.resize(pairs.i.len() * slots, 0.0);
                 for p in 0..pairs.len {
                     let (i, j) = (pairs.i[p] as usize, (pairs.j[p] & INDEX) as usize);
                     let image = image_of(pairs.j[p] >> INDEX_BITS);
                     let touched = handover.recall(self.tags, self.rest, (i, j, image), |s, x| {
-                        pairs.memory[memory_place(p, s, self.slots)] = x;
+                        pairs.memory[memory_place(p, s, slots)] = x;
                     });
                     if touched {
                         note_touched(&mut pairs.touched, p);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_follows_its_entries() {
+        let slots = 2;
+        let mark = |place: u32, s: usize| f64::from(place) + 0.5 * s as f64;
+        // Shrinking, growing, unchanged, nothing in common, from and to nothing.
+        let all: Vec<u32> = (0..40).collect();
+        let some = |step: usize| all.iter().copied().skip(step / 2).step_by(step).collect::<Vec<u32>>();
+        let lists = [all.clone(), some(2), some(3), vec![], some(5), some(7), all[8..16].to_vec()];
+        for old in &lists {
+            for new in &lists {
+                let room = old.len().next_multiple_of(BATCH);
+                let mut memory = vec![0.0; room * slots];
+                for (p, &place) in old.iter().enumerate() {
+                    for s in 0..slots {
+                        memory[memory_place(p, s, slots)] = mark(place + 1, s);
+                    }
+                }
+                let mut spare = Spare { from: old.clone(), touched: vec![0; room / BATCH] };
+                (0..old.len()).filter(|p| p % 3 == 0).for_each(|p| note_touched(&mut spare.touched, p));
+                let padded = new.len().next_multiple_of(BATCH);
+                let mut touched = vec![0; padded / BATCH];
+                spare.carry(old.len(), new, &mut memory, &mut touched, slots);
+                assert_eq!(memory.len(), padded * slots);
+                for p in 0..padded {
+                    let known = new.get(p).filter(|place| old.contains(place));
+                    let before = known.and_then(|place| old.iter().position(|o| o == place));
+                    assert_eq!(has_touched(&touched, p), before.is_some_and(|q| q % 3 == 0));
+                    for s in 0..slots {
+                        let wanted = known.map_or(0.0, |place| mark(place + 1, s));
+                        assert_eq!(memory[memory_place(p, s, slots)], wanted, "{old:?} to {new:?}");
                     }
                 }
             }

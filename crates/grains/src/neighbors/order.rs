@@ -15,24 +15,13 @@ pub struct Order {
 
 impl Order {
     /// Sorts the small grains of `state` by the cells of `grid` and fills `grid.start`.
-    /// `rows` and `spins` are work space of the same length as the state's.
-    pub fn sort(
-        &mut self,
-        state: &mut DemState,
-        grid: &mut Grid,
-        rows: &mut Vec<Row>,
-        spins: &mut Vec<crate::packed::Spin>,
-    ) {
+    pub fn sort(&mut self, state: &mut DemState, grid: &mut Grid) {
         let n = state.small;
         self.count(&state.rows[..n], grid);
-        rows.clone_from(&state.rows);
-        spins.clone_from(&state.spins);
-        for (to, &from) in self.from.iter().enumerate() {
-            state.rows[to] = rows[from as usize];
-            state.spins[to] = spins[from as usize];
-        }
         // `cell` has done its work: it marks the rows already moved.
         let done = &mut self.cell;
+        permute(&mut state.rows[..n], &self.from, done);
+        permute(&mut state.spins[..n], &self.from, done);
         permute(&mut state.halves[..n], &self.from, done);
         permute(&mut state.tags[..n], &self.from, done);
         permute(&mut state.rest[..n], &self.from, done);

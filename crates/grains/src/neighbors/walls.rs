@@ -23,9 +23,8 @@ impl Prune<'_> {
     /// Makes the inner list of wall contacts anew.
     pub fn walls(&self, list: &mut WallPairs, walls: &Walls, spare: &mut Spare) {
         let old = if matches!(self.memory, Memory::Kept) { list.inner.len() } else { 0 };
-        spare.swap(&mut list.from, &mut list.memory, &mut list.touched);
+        spare.swap(&mut list.from, &mut list.touched);
         list.inner.clear();
-        list.from.clear();
         list.class.clear();
         for (k, &(row, wall, feature)) in list.outer.iter().enumerate() {
             let g = &self.rows[row as usize];
@@ -41,32 +40,18 @@ impl Prune<'_> {
                 }
             }
         }
-        let batches = list.inner.len().div_ceil(BATCH);
-        list.memory.clear();
-        list.memory.resize(batches * BATCH * self.slots, 0.0);
-        list.touched.clear();
-        list.touched.resize(batches, 0);
         self.carry_walls(list, spare, old);
     }
 
     fn carry_walls(&self, list: &mut WallPairs, spare: &Spare, old: usize) {
-        let slots = self.slots;
-        let mut q = 0;
-        for p in 0..list.inner.len() {
-            match self.memory {
-                Memory::Kept => {
-                    while q < old && spare.from(q) < list.from[p] {
-                        q += 1;
-                    }
-                    if q < old && spare.from(q) == list.from[p] && spare.touched(q) {
-                        note_touched(&mut list.touched, p);
-                        for s in 0..slots {
-                            list.memory[memory_place(p, s, slots)] = spare.memory(memory_place(q, s, slots));
-                        }
-                    }
-                }
-                Memory::Handed(handover) => {
-                    let (row, wall, feature) = list.inner[p];
+        let (slots, batches) = (self.slots, list.inner.len().div_ceil(BATCH));
+        list.touched.resize(batches, 0);
+        match self.memory {
+            Memory::Kept => spare.carry(old, &list.from, &mut list.memory, &mut list.touched, slots),
+            Memory::Handed(handover) => {
+                list.memory.clear();
+                list.memory.resize(batches * BATCH * slots, 0.0);
+                for (p, &(row, wall, feature)) in list.inner.iter().enumerate() {
                     let touched = handover.recall_wall(self.tags[row as usize].id, wall, feature, |s, x| {
                         list.memory[memory_place(p, s, slots)] = x;
                     });
