@@ -68,8 +68,12 @@ impl Sheet {
         let mut sheet = Self::default();
         match (spec, grid) {
             (CouplingSpec::Averaged(a), Some(grid)) => {
-                sheet.averaged(a.density, grid, populations);
-                sheet.line("exchange", "model A, equal and opposite; porosity floor".into());
+                sheet.averaged(a, grid, populations);
+                let exchange = match a.formulation {
+                    crate::averaged::Formulation::A => "model A, equal and opposite; porosity floor",
+                    crate::averaged::Formulation::Printed => "as printed (2.76), not equal and opposite",
+                };
+                sheet.line("exchange", exchange.into());
                 sheet.line("porosity floor", format!("{}", a.porosity_floor));
             }
             (CouplingSpec::Resolved(r), Some(grid)) => {
@@ -88,7 +92,12 @@ impl Sheet {
         self.refusals.push(Refusal { message, cause, remedy: remedy.into() });
     }
 
-    fn averaged(&mut self, density: f64, grid: &Grid, populations: &[Population]) {
+    fn averaged(&mut self, spec: &crate::averaged::Averaged, grid: &Grid, populations: &[Population]) {
+        // The printed force takes no part of the solved pressure, and so no added mass.
+        let density = match spec.formulation {
+            crate::averaged::Formulation::A => spec.density,
+            crate::averaged::Formulation::Printed => 0.0,
+        };
         for p in populations {
             let h = crate::resolved::tracers::spacing(grid);
             let cells = 2.0 * p.radius / h;
