@@ -100,13 +100,13 @@ impl Bed {
         (f.velocity.iter().map(|v| (v[2] - mean).powi(2)).sum::<f64>() / n).sqrt()
     }
 
-    /// The cylinders and the flow at picture `k`, arrows as long as the way in `seconds`.
-    fn picture(&self, k: usize, seconds: f64) -> Figure {
+    /// The cylinders and the flow at picture `k`.
+    fn picture(&self, k: usize) -> Figure {
         let field = &self.flows[k];
         let [x, z, u, w] = ["x", "z", "mixture_x", "mixture_z"].map(|c| column(field, c));
         let arrows = (0..x.len())
             .filter(|&i| u[i].is_finite() && w[i].is_finite())
-            .map(|i| ([x[i], z[i]], [seconds * u[i], seconds * w[i]]))
+            .map(|i| ([x[i], z[i]], [u[i], w[i]]))
             .collect();
         let circle = |c: &[f64; 3]| {
             let angle = |i: i32| f64::from(i) * std::f64::consts::TAU / 24.0;
@@ -115,13 +115,13 @@ impl Bed {
         let frame = self.frames.iter().find(|f| (f.time - SHOTS[k]).abs() < 1e-3);
         Figure {
             title: format!("{} at {} s", self.short, SHOTS[k]),
-            caption: format!("Arrows: way of the fluid in {seconds} s."),
+            caption: "Cylinders, and the mean velocity of fluid and cylinders in cells of 2.2 mm.".into(),
             body: Body::Map {
                 x: Axis::linear("x", "m"),
                 y: Axis::linear("z", "m"),
                 raster: None,
                 arrows,
-                arrow_unit: "m".into(),
+                arrow_unit: "m/s".into(),
                 lines: frame.map_or(vec![], |f| f.position.iter().map(circle).collect()),
             },
         }
@@ -150,9 +150,7 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
         computed.push(Computed::new("spread of the falling speeds at 1.5 s, NS over FS", apart(ns, fs)));
         computed.push(Computed::new("spread of the falling speeds at 1.5 s, PT over FS", apart(pt, fs)));
         for bed in &beds {
-            // The printed arrows of NS are ten times longer.
-            let seconds = if bed.short == "NS" { 0.5 } else { 0.05 };
-            figures.extend((0..SHOTS.len()).map(|k| bed.picture(k, seconds)));
+            figures.extend((0..SHOTS.len()).map(|k| bed.picture(k)));
         }
     }
     Ok(Ran { computed, figures })
