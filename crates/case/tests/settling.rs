@@ -25,6 +25,9 @@ diameter = { mean = "1 mm", spread = 0.1 }
 from = ["4 mm", "4 mm", "0 mm"]
 to = ["8 mm", "8 mm", "12 mm"]
 
+[start]
+placement = "random"
+
 [[obstacles]]
 name = "left"
 from = ["0 mm", "0 mm", "0 mm"]
@@ -53,7 +56,7 @@ until_settled = true
 rotation = false
 stiffness = 500
 restitution = 0.3
-friction = 0.4
+friction = 0.1
 
 [time]
 rest_speed = "3 mm/s"
