@@ -7,6 +7,9 @@ use crate::{
     clement_modified_kroll_peaks, clement_sedimentation, clement_sphere_drag, clement_thrown_bed,
     clement_tilt, lan_arching, lan_convection, lan_kinetic_theory, lan_large_sphere, lan_self_diffusion,
     lan_stiffness,
+    clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11,
+    clement_modified_kroll_peaks, lan_acceleration, lan_coupling_spectra, lan_depth_profiles,
+    lan_kinetic_theory, lan_self_diffusion, lan_stiffness,
 };
 
 /// A study whose folder and id agree.
@@ -74,6 +77,17 @@ pub const MENU: &[Study] = &[
     study!("clement-tilt", "A bed in water piles up to one side (Clément 2009)", clement_tilt::run),
     study!("lan-arching", "Arches under a wide bed (Lan 1994)", lan_arching::run),
     study!("lan-convection", "Convection between rough walls (Lan 1994)", lan_convection::run),
+    study!("lan-acceleration", "A vibrated layer from 5 to 100 Hz (Lan 1994)", lan_acceleration::run),
+    study!(
+        "lan-coupling-spectra",
+        "How the floor's motion goes up through a layer (Lan 1994)",
+        lan_coupling_spectra::run
+    ),
+    study!(
+        "lan-depth-profiles",
+        "Profiles of vibrated layers and kinetic theory (Lan 1994)",
+        lan_depth_profiles::run
+    ),
     study!("lan-kinetic-theory", "Kinetic theory of a vibrated layer (Lan 1994)", |r| Ok(
         lan_kinetic_theory::run(r.quick).into()
     )),
