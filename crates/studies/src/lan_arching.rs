@@ -1,4 +1,4 @@
-//! Arches under a wide shaken bed and the rolls at its ends (Lan 5.1.3, Figs A5.8-A5.11).
+//! Arches under a wide shaken bed (Lan 5.1.3, Figs A5.10, A5.11).
 
 use crate::maps::Field;
 use crate::runs::{Done, SEEDS, column};
@@ -19,19 +19,6 @@ const DIAMETER: f64 = 0.1;
 
 /// Cells of a smaller solids fraction have few visitors and are left out.
 const LEAST: f64 = 0.05;
-/// Columns at each end within which the thesis sees the rolls, and columns between them, of 100.
-const ENDS: usize = 8;
-const MIDDLE: std::ops::Range<usize> = 20..80;
-
-/// What the short form lays over the case: a fifth of the width.
-const QUICK: [&str; 6] = [
-    "cell.size=[\"2.0 m\", \"0.1 m\", \"2.1 m\"]",
-    "grains.0.count=191",
-    "time.end=8 s",
-    "observe.0.from=3 s",
-    "observe.1.from=3 s",
-    "observe.2.from=3 s",
-];
 
 /// Tables of one run.
 struct Run {
@@ -42,10 +29,7 @@ struct Run {
 
 impl Run {
     fn new(seed: u64, request: &Request) -> Result<Self, Failure> {
-        let mut overrides = vec![format!("seed={seed}")];
-        if request.quick {
-            overrides.extend(QUICK.map(String::from));
-        }
+        let overrides = [format!("seed={seed}")];
         let run = Done::new(CASE, &overrides, &request.out.join(format!("seed-{seed}")), !request.quick)?;
         Ok(Self {
             gap: run.table("gap")?,
@@ -101,13 +85,6 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
     sum(&|x, y| x * y) / (sum(&|x, _| x * x) * sum(&|_, y| y * y)).sqrt()
 }
 
-/// Mean speed of the columns at both ends over that of the columns in the middle.
-fn ends_over_middle(field: &Field) -> f64 {
-    let v: Vec<f64> = field.speeds().into_iter().map(|p| p[1]).collect();
-    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
-    0.5 * (mean(&v[..ENDS]) + mean(&v[v.len() - ENDS..])) / mean(&v[MIDDLE])
-}
-
 /// The quantities and plots.
 ///
 /// # Errors
@@ -128,16 +105,13 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
         mean("largest unevenness", &Run::largest),
         mean("likeness of the gap a cycle later", &|r| r.likeness(1)),
         mean("mean vertical velocity along the walls", &|r| r.field.along_the_walls()),
-        Computed::new("width of the roll at a wall", pooled.turning(2) / DIAMETER),
-        mean("speed at the walls over that in the middle", &|r| ends_over_middle(&r.field)),
     ];
     let figures = vec![
         by_phase(&runs),
         likeness(&runs),
         profiles(&runs[0]),
-        speeds(&pooled),
         pooled.map(
-            "Mean velocity (Fig. A5.8)".into(),
+            "Mean velocity".into(),
             "Cells of one diameter, a grain counted where its centre is; mean of all seeds.",
         ),
     ];
@@ -195,21 +169,6 @@ fn profiles(run: &Run) -> Figure {
             x: Axis::linear("x over diameter", "1"),
             y: Axis::linear("gap over diameter", "1"),
             curves: last.iter().step_by(PER_CYCLE / 8).map(curve).collect(),
-        },
-    }
-}
-
-fn speeds(field: &Field) -> Figure {
-    Figure {
-        title: "Speed by column (Fig. A5.9)".into(),
-        caption: "Mean magnitude of the mean velocity over the cells of each column, and mean vertical velocity of its grains, mean of all seeds.".into(),
-        body: Body::Curves {
-            x: Axis::linear("x, distance from the nearer wall", "m"),
-            y: Axis::linear("velocity", "m/s"),
-            curves: vec![
-                Curve::line("speed", field.speeds()),
-                Curve::line("vertical, mean of both halves", field.folded()),
-            ],
         },
     }
 }

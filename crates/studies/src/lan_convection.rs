@@ -1,4 +1,4 @@
-//! Convection between rough side walls (Lan 5.1, Tables 5.1 and 5.2, Figs A5.1-A5.7).
+//! Convection between rough side walls (Lan 5.1, Tables 5.1 and 5.2, Figs A5.1-A5.6).
 
 use crate::maps::Field;
 use crate::runs::{Done, SEEDS};
@@ -12,12 +12,11 @@ const CASE: (&str, &str) =
 /// Diameter of the grains, m.
 const DIAMETER: f64 = 0.1;
 
-/// Frequency, Hz, and amplitude over diameter: Table 5.1, its middle row in both readings.
-const AMPLITUDES: [(f64, f64); 4] = [(7.0, 0.5), (7.878, 0.4), (7.878, 0.3), (9.996, 0.25)];
-/// That of most of the thesis; the table does not say.
-const RESTITUTION: f64 = 0.9;
-/// Friction between grains and at the walls (Table 5.2); its first pair is that of Table 5.1.
-const FRICTIONS: [(f64, f64); 3] = [(0.8, 0.2), (0.8, 0.0), (0.0, 0.8)];
+/// Frequency, Hz, and amplitude over diameter: Table 5.1, the amplitude of its middle row as its
+/// frequency and acceleration have it.
+const AMPLITUDES: [(f64, f64); 3] = [(7.0, 0.5), (7.878, 0.4), (9.996, 0.25)];
+/// Friction between grains and at the walls: two rows of Table 5.2.
+const FRICTIONS: [(f64, f64); 2] = [(0.8, 0.0), (0.0, 0.8)];
 
 /// Cells of a smaller solids fraction have few visitors and are left out of means and maps.
 const LEAST: f64 = 0.05;
@@ -86,14 +85,11 @@ impl Bed {
     }
 }
 
-/// A run of Table 5.1: restitution, then frequency (Hz) and amplitude over diameter.
-fn amplitude(e: f64, (f, a): (f64, f64), request: &Request) -> Result<Bed, Failure> {
-    let overrides = [
-        format!("shaking.frequency={f} Hz"),
-        format!("shaking.displacement_amplitude={} m", a * DIAMETER),
-        format!("contact.restitution={e}"),
-    ];
-    Bed::new(format!("a {a} d, e {e}"), &overrides, request)
+/// A run of Table 5.1: frequency (Hz) and amplitude over diameter.
+fn amplitude((f, a): (f64, f64), request: &Request) -> Result<Bed, Failure> {
+    let overrides =
+        [format!("shaking.frequency={f} Hz"), format!("shaking.displacement_amplitude={} m", a * DIAMETER)];
+    Bed::new(format!("a {a} d"), &overrides, request)
 }
 
 /// A run of Table 5.2: friction between grains and at the walls.
@@ -110,47 +106,36 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
     if request.quick {
         return quick(request);
     }
-    let beds: Vec<Bed> =
-        AMPLITUDES.iter().map(|&a| amplitude(RESTITUTION, a, request)).collect::<Result<_, _>>()?;
-    let [strong, middle, _, weak] = &beds[..] else { unreachable!("there are four amplitudes") };
-    let soft = amplitude(0.6, AMPLITUDES[0], request)?;
-    let pairs: Vec<Bed> = FRICTIONS.into_iter().map(|f| friction(f, request)).collect::<Result<_, _>>()?;
-    let open = Bed::new("periodic sides".into(), &["cell.x=periodic".into()], request)?;
-    let wide = Bed::new(
-        "20d cell".into(),
-        &["cell.size=[\"2.0 m\", \"0.3 m\", \"2.1 m\"]".into(), "grains.0.count=573".into()],
-        request,
-    )?;
-    let mut computed: Vec<Computed> = beds.iter().chain([&soft, &open]).map(Bed::speed).collect();
-    computed.extend([
-        ratio("speed at 0.5 d over that at 0.4 d", strong, middle),
-        ratio("speed at 0.4 d over that at 0.25 d", middle, weak),
-        ratio("speed at 0.5 d over that at 0.25 d", strong, weak),
-        ratio("speed at restitution 0.6 over that at 0.9", &soft, strong),
-        ratio("speed at wall friction 0.8 over that at 0.2", strong, &pairs[0]),
-    ]);
-    computed.extend(std::iter::once(strong).chain(&pairs).chain([&wide]).map(Bed::along_the_walls));
-    computed.extend([strong.down_stream(), pairs[1].down_stream(), wide.down_stream()]);
-    let streams: Vec<&Bed> = std::iter::once(strong).chain(&pairs).chain([&wide]).collect();
+    let [strong, middle, weak] = AMPLITUDES.map(|a| amplitude(a, request));
+    let [strong, middle, weak] = [strong?, middle?, weak?];
+    let [smooth_walls, smooth_grains] = FRICTIONS.map(|f| friction(f, request));
+    let [smooth_walls, smooth_grains] = [smooth_walls?, smooth_grains?];
+    let computed = vec![
+        strong.speed(),
+        middle.speed(),
+        weak.speed(),
+        ratio("speed at 0.5 d over that at 0.25 d", &strong, &weak),
+        strong.along_the_walls(),
+        smooth_walls.along_the_walls(),
+        smooth_grains.along_the_walls(),
+        strong.down_stream(),
+    ];
     let figures = vec![
         strong.map("a 0.5 d, 7 Hz, friction 0.8 (Fig. A5.1c)"),
         weak.map("a 0.25 d, 9.996 Hz, friction 0.8 (Fig. A5.1a)"),
-        pairs[1].map("rough grains, smooth walls (Fig. A5.5)"),
-        pairs[2].map("smooth grains, rough walls (Fig. A5.6)"),
-        wide.map("20 d by 3 d (Fig. A5.7)"),
-        speeds(&beds),
-        vertical(&streams),
+        smooth_walls.map("rough grains, smooth walls (Fig. A5.5)"),
+        smooth_grains.map("smooth grains, rough walls (Fig. A5.6)"),
+        speeds(&[&strong, &middle, &weak]),
+        vertical(&[&strong, &smooth_walls, &smooth_grains]),
     ];
     Ok(Ran { computed, figures })
 }
 
-/// The short form: the strongest and the weakest shaking, and smooth grains between rough walls.
+/// The short form: the strongest shaking alone.
 fn quick(request: &Request) -> Result<Ran, Failure> {
-    let strong = amplitude(RESTITUTION, AMPLITUDES[0], request)?;
-    let smooth = friction(FRICTIONS[2], request)?;
-    let computed = vec![strong.along_the_walls(), smooth.along_the_walls()];
-    let figures = vec![strong.map("a 0.5 d, 7 Hz, friction 0.8"), vertical(&[&strong, &smooth])];
-    Ok(Ran { computed, figures })
+    let strong = amplitude(AMPLITUDES[0], request)?;
+    let figures = vec![strong.map("a 0.5 d, 7 Hz, friction 0.8"), vertical(&[&strong])];
+    Ok(Ran { computed: vec![strong.along_the_walls()], figures })
 }
 
 /// Ratio of two mean speeds, with the error of each.
@@ -162,8 +147,8 @@ fn ratio(name: &str, a: &Bed, b: &Bed) -> Computed {
     Computed { name: name.into(), value, error }
 }
 
-fn speeds(beds: &[Bed]) -> Figure {
-    let curve = |bed: &Bed| Curve::line(&bed.name, Field::mean(bed.fields.iter()).speeds());
+fn speeds(beds: &[&Bed]) -> Figure {
+    let curve = |bed: &&Bed| Curve::line(&bed.name, Field::mean(bed.fields.iter()).speeds());
     Figure {
         title: "Speed by column (Figs A5.2)".into(),
         caption: "Mean magnitude of the mean velocity over the cells of each column, mean of all seeds."

@@ -9,9 +9,8 @@ use brazilnut_runner::Failure;
 const CASE: (&str, &str) =
     ("studies/lan-large-sphere/case.toml", include_str!("../../../studies/lan-large-sphere/case.toml"));
 
-/// Diameters of the grains and of the large sphere, m.
+/// Diameter of the grains, m.
 const SMALL: f64 = 0.1;
-const LARGE: f64 = 0.3;
 
 /// Frequency of the floor, Hz.
 const FLOOR: f64 = 7.0;
@@ -31,7 +30,6 @@ struct Run {
     height: Table,
     sphere: Table,
     spectrum: Table,
-    small: Table,
 }
 
 impl Bed {
@@ -45,7 +43,6 @@ impl Bed {
                 height: run.table("height")?,
                 sphere: run.table("trajectory")?,
                 spectrum: run.table("trajectory-spectrum")?,
-                small: run.table("small")?,
             })
         };
         let runs = seeds.iter().map(run).collect::<Result<_, Failure>>()?;
@@ -54,10 +51,6 @@ impl Bed {
 
     fn mean(&self, what: &str, of: impl Fn(&Run) -> f64) -> Computed {
         Computed::mean(format!("{what}, {}", self.name), &self.runs.iter().map(of).collect::<Vec<_>>())
-    }
-
-    fn time_to_the_top(&self) -> Computed {
-        self.mean("time to the top", Run::time_to_the_top)
     }
 }
 
@@ -75,12 +68,6 @@ impl Run {
         let depth = self.running("depth");
         let end = column(&self.height, "time").last().copied().unwrap_or(f64::NAN);
         depth.iter().find(|p| p[1] <= 0.0).map_or(end, |p| p[0])
-    }
-
-    /// How deep its top went below the surface after it had come up, in its diameters.
-    fn deepest_afterwards(&self) -> f64 {
-        let depth = self.running("depth");
-        depth.iter().skip_while(|p| p[1] > 0.0).map(|p| p[1] / LARGE).fold(0.0, f64::max)
     }
 
     /// How far its centre rose above where it was at first, in diameters of the small ones.
@@ -102,35 +89,6 @@ impl Run {
         let (f, p) = (column(&self.spectrum, "frequency"), column(&self.spectrum, "velocity_z"));
         let power = |of: f64| (0..f.len()).filter(|&k| (f[k] - of).abs() <= 0.5).map(|k| p[k]).sum::<f64>();
         power(2.5) / power(FLOOR)
-    }
-
-    /// Rate of rise of the grains under the sphere over its own, while it goes up.
-    ///
-    /// Under it are grains whose centres lie, once it has risen by a diameter of theirs, below its centre,
-    /// and to the side of it by no more than its radius.
-    fn rate_under_it(&self) -> f64 {
-        let [t, x, z] = ["time", "x", "height"].map(|c| column(&self.sphere, c));
-        let top = self.time_to_the_top();
-        let begin = self.running("height").iter().find(|p| p[1] > 0.5 * LARGE + SMALL).map_or(top, |p| p[0]);
-        let rate = |t: &[f64], z: &[f64]| {
-            let inside: Vec<usize> = (0..t.len()).filter(|&k| t[k] >= begin && t[k] <= top).collect();
-            let n = inside.len() as f64;
-            let mean = |y: &[f64]| inside.iter().map(|&k| y[k]).sum::<f64>() / n;
-            let (mt, mz) = (mean(t), mean(z));
-            let xx: f64 = inside.iter().map(|&k| (t[k] - mt).powi(2)).sum();
-            inside.iter().map(|&k| (t[k] - mt) * (z[k] - mz)).sum::<f64>() / xx
-        };
-        let at = |t: &[f64]| t.iter().position(|&t| t >= begin).unwrap_or(0);
-        let (s, times) = (at(&t), column(&self.small, "time"));
-        let k = at(&times);
-        let rates: Vec<f64> = (0..)
-            .map_while(|g| {
-                self.small.column(&format!("x_{g}")).map(|x| (x, column(&self.small, &format!("height_{g}"))))
-            })
-            .filter(|(gx, gz)| (gx[k] - x[s]).abs() < 0.5 * LARGE && gz[k] < z[s])
-            .map(|(_, gz)| rate(&times, &gz))
-            .collect();
-        rates.iter().sum::<f64>() / rates.len() as f64 / rate(&t, &z)
     }
 
     /// Rows of the trajectory while the sphere goes up under the full shake: phase in cycles, contacts, velocity.
@@ -172,94 +130,38 @@ impl Run {
     }
 }
 
-/// A bed of Fig. A5.15.
-fn restitution(
-    (grains, walls): (f64, f64),
-    end: &str,
-    seeds: &[u64],
-    request: &Request,
-) -> Result<Bed, Failure> {
-    let overrides = [
-        format!("contact.restitution={grains}"),
-        format!("contact.pairs.0.restitution={walls}"),
-        format!("time.end={end}"),
-    ];
-    Bed::new(&format!("restitution {grains} and {walls}"), &overrides, seeds, request)
-}
-
-/// A wider cell, the sphere in its middle.
-fn cell(name: &str, width: f64, depth: f64, count: u32, request: &Request) -> Result<Bed, Failure> {
-    let overrides = [
-        format!("cell.size=[{width}, {depth}, 2.1]"),
-        format!("cell.y={}", if depth < LARGE { "flat" } else { "periodic" }),
-        format!("grains.0.count={count}"),
-        format!("grains.1.at=[{}, {}, {}]", 0.5 * width, 0.5 * depth, 0.5 * LARGE),
-        "time.end=40 s".into(),
-    ];
-    Bed::new(name, &overrides, &SEEDS[..1], request)
-}
-
 /// The quantities and plots.
 ///
 /// # Errors
 /// Whatever a run fails with.
 pub fn run(request: &Request) -> Result<Ran, Failure> {
     if request.quick {
-        let bed = restitution((0.6, 0.6), "12 s", &SEEDS[..1], request)?;
+        let bed = Bed::new("6d cell", &["time.end=12 s".into()], &SEEDS[..1], request)?;
         let computed = vec![bed.mean("rise", Run::rise)];
-        return Ok(Ran { computed, figures: vec![heights("Height of the sphere", &[&bed])] });
+        return Ok(Ran { computed, figures: vec![heights(&bed)] });
     }
-    let soft = restitution((0.6, 0.6), "40 s", &SEEDS, request)?;
-    let wide = cell("20d cell", 2.0, 0.3, 573, request)?;
-    let hard = restitution((0.9, 0.9), "80 s", &SEEDS[..1], request)?;
-    let hard_walls = restitution((0.6, 0.9), "80 s", &SEEDS[..1], request)?;
-    let hard_grains = restitution((0.9, 0.6), "80 s", &SEEDS[..1], request)?;
-    let widest = cell("100d cell", 10.0, 0.1, 955, request)?;
-    let ratio = |name: &str, a: &Bed, b: &Bed| {
-        Computed::new(name, a.time_to_the_top().value / b.time_to_the_top().value)
-    };
+    let bed = Bed::new("6d cell", &[], &SEEDS, request)?;
     let computed = vec![
-        soft.time_to_the_top(),
-        hard.time_to_the_top(),
-        ratio("time to the top at restitution 0.9 over that at 0.6", &hard, &soft),
-        ratio("time to the top with hard grains over that with hard walls", &hard_grains, &hard_walls),
-        soft.mean("rise", Run::rise),
-        soft.mean("deepest after it came up", Run::deepest_afterwards),
-        wide.time_to_the_top(),
-        wide.mean("deepest after it came up", Run::deepest_afterwards),
-        widest.mean("rise", Run::rise),
-        soft.mean("rate of the grains under it over its own", Run::rate_under_it),
-        soft.mean("peak of the spectrum below 7 Hz", Run::peak),
-        soft.mean("power around 2.5 Hz over that around 7 Hz", Run::slow_over_floor),
-        soft.mean("contacts while the floor rises over those while it falls", Run::contacts_rising),
-        soft.mean("fewest contacts while the floor falls", Run::fewest_contacts),
-        soft.mean("correlation of contacts and velocity", Run::correlation),
+        bed.mean("time to the top", Run::time_to_the_top),
+        bed.mean("rise", Run::rise),
+        bed.mean("peak of the spectrum below 7 Hz", Run::peak),
+        bed.mean("power around 2.5 Hz over that around 7 Hz", Run::slow_over_floor),
+        bed.mean("contacts while the floor rises over those while it falls", Run::contacts_rising),
+        bed.mean("fewest contacts while the floor falls", Run::fewest_contacts),
+        bed.mean("correlation of contacts and velocity", Run::correlation),
     ];
-    let figures = vec![
-        heights(
-            "Height of the sphere against restitution (Fig. A5.15)",
-            &[&soft, &hard_walls, &hard_grains, &hard],
-        ),
-        heights("Height of the sphere against the cell (Figs A5.12, A5.13)", &[&soft, &wide, &widest]),
-        spectra(&soft),
-        cycle(&soft),
-    ];
-    Ok(Ran { computed, figures })
+    Ok(Ran { computed, figures: vec![heights(&bed), spectra(&bed), cycle(&bed)] })
 }
 
-fn heights(title: &str, beds: &[&Bed]) -> Figure {
-    let curves = beds.iter().flat_map(|bed| {
-        let curve =
-            |(k, r): (usize, &Run)| Curve::line(format!("{}, seed {}", bed.name, k + 1), r.running("height"));
-        bed.runs.iter().enumerate().map(curve).collect::<Vec<_>>()
-    });
+fn heights(bed: &Bed) -> Figure {
+    let curve = |(k, r): (usize, &Run)| Curve::line(format!("seed {}", k + 1), r.running("height"));
     Figure {
-        title: title.into(),
+        title: "Height of the sphere (Fig. A5.12)".into(),
         caption: "Centre of the sphere above the floor, running mean over a second.".into(),
         body: Body::Curves {
             x: Axis::linear("time", "s"),
             y: Axis::linear("height", "m"),
-            curves: curves.collect(),
+            curves: bed.runs.iter().enumerate().map(curve).collect(),
         },
     }
 }

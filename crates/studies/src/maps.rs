@@ -78,19 +78,22 @@ impl Field {
     }
 
     /// Distance of each column from the nearer end, m, and mean vertical velocity of its grains, m/s; the
-    /// mean of both sides.
+    /// mean of both sides. Less that of all grains: a bed that stands higher at the end than at the start
+    /// does not turn over for that.
     #[must_use]
     pub fn folded(&self) -> Vec<[f64; 2]> {
         let n = self.x.len();
-        let vertical = |i: usize| {
+        let vertical = |cells: &mut dyn Iterator<Item = usize>| {
             let of = |k: usize| (self.solids_fraction[k] * self.velocity[k][1], self.solids_fraction[k]);
-            let (flux, mass) = self.column(i).map(of).fold((0.0, 0.0), |s, c| (s.0 + c.0, s.1 + c.1));
+            let (flux, mass) = cells.map(of).fold((0.0, 0.0), |s, c| (s.0 + c.0, s.1 + c.1));
             flux / mass
         };
-        (0..n.div_ceil(2)).map(|i| [self.x[i], 0.5 * (vertical(i) + vertical(n - 1 - i))]).collect()
+        let all = vertical(&mut (0..self.z.len()));
+        let column = |i: usize| vertical(&mut self.column(i)) - all;
+        (0..n.div_ceil(2)).map(|i| [self.x[i], 0.5 * (column(i) + column(n - 1 - i))]).collect()
     }
 
-    /// Mean vertical velocity of the grains of the two columns at the ends, m/s.
+    /// Mean vertical velocity of the grains of the two columns at the ends, m/s, as in [`Self::folded`].
     #[must_use]
     pub fn along_the_walls(&self) -> f64 {
         self.folded()[0][1]
