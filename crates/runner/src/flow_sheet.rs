@@ -6,6 +6,7 @@ use brazilnut_base::Side;
 use brazilnut_case::build::Built;
 use brazilnut_fluid::{Advection, Diffusion, FluidSpec, Scheme, step_limits};
 use brazilnut_report::sheet::Sheet;
+use brazilnut_report::text::significant;
 
 /// Seconds per cell and step assumed for the estimate, of one core of a current machine.
 const PER_CELL: f64 = 15e-9;
@@ -42,7 +43,7 @@ pub fn flow(s: &mut Sheet, b: &Built) {
         let extent = (0..3).filter(|&a| spec.grid.sides[a] != Side::Flat).map(|a| spec.grid.size()[a]);
         let length = extent.fold(f64::INFINITY, f64::min);
         let at = format!("{} over {}", si(speed, "m/s"), si(length, "m"));
-        s.row("Reynolds number", format!("{:.4}", speed * length / nu), at);
+        s.row("Reynolds number", significant(speed * length / nu, 4), at);
     }
     let limits = step_limits(spec, speed);
     for (name, limit) in &limits {
@@ -54,7 +55,7 @@ pub fn flow(s: &mut Sheet, b: &Built) {
         s.row("largest stable step", si(largest, "s"), part);
     }
     let cells = spec.grid.count() as f64;
-    s.row("memory of the flow", si(8.0 * WORDS * cells, "B"), "estimated");
+    s.row("memory of the flow", format!("{} MB", significant(8e-6 * WORDS * cells, 3)), "estimated");
     if b.plan.start.is_empty() {
         let work = cells * clock.end as f64;
         s.row("cell-steps", format!("{work:.2e}"), "");
