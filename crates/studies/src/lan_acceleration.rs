@@ -48,7 +48,7 @@ fn said(bed: &Bed, frequency: u32) -> Vec<Computed> {
     }
     vec![
         bed.find("layers below the least W", |l| l.height[l.coldest()]),
-        bed.find("layers from the least W to the densest", |l| l.height[l.densest()] - l.height[l.coldest()]),
+        bed.find("layers from the least W to the densest", Layers::coldest_to_densest),
         bed.find("W at the top over the least", |l| l.top() / l.w[l.coldest()]),
         bed.find("W at the floor over W at the top", |l| l.floor() / l.top()),
     ]

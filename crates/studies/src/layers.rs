@@ -102,6 +102,12 @@ impl Layers {
         self.full().into_iter().min_by(|&a, &b| self.w[a].total_cmp(&self.w[b])).unwrap_or(0)
     }
 
+    /// Layers from the one of the least W up to the densest.
+    #[must_use]
+    pub fn coldest_to_densest(&self) -> f64 {
+        self.densest() as f64 - self.coldest() as f64
+    }
+
     /// How far W rises above its least value further down, at most, over W at the floor: 0 for a monotonic decrease.
     #[must_use]
     pub fn rise(&self) -> f64 {

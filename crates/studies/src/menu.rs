@@ -7,6 +7,9 @@ use crate::{
     clement_modified_kroll_peaks, clement_sedimentation, clement_sphere_drag, clement_thrown_bed,
     clement_tilt, lan_acceleration, lan_arching, lan_convection, lan_coupling_spectra, lan_depth_profiles,
     lan_kinetic_theory, lan_large_sphere, lan_self_diffusion, lan_stiffness,
+    clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11,
+    clement_modified_kroll_peaks, lan_acceleration, lan_coupling_spectra, lan_depth_profiles, lan_expansion,
+    lan_kinetic_theory, lan_self_diffusion, lan_stiffness, lan_temperature_collisions,
 };
 
 /// A study whose folder and id agree.
@@ -85,10 +88,16 @@ pub const MENU: &[Study] = &[
         "Profiles of vibrated layers and kinetic theory (Lan 1994)",
         lan_depth_profiles::run
     ),
+    study!("lan-expansion", "Expansion of a vibrated layer of 3 mm glass (Lan 1994)", lan_expansion::run),
     study!("lan-kinetic-theory", "Kinetic theory of a vibrated layer (Lan 1994)", |r| Ok(
         lan_kinetic_theory::run(r.quick).into()
     )),
     study!("lan-large-sphere", "A large sphere in a convecting bed (Lan 1994)", lan_large_sphere::run),
     study!("lan-self-diffusion", "Self-diffusion in a vibrated layer (Lan 1994)", lan_self_diffusion::run),
     study!("lan-stiffness", "Softer springs, the same profiles (Lan 1994)", lan_stiffness::run),
+    study!(
+        "lan-temperature-collisions",
+        "Temperature and collisions of a vibrated layer (Lan 1994)",
+        lan_temperature_collisions::run
+    ),
 ];

@@ -1,0 +1,55 @@
+//! Temperature and collisions of a vibrated layer over the acceleration (Lan 4.2, Figs A4.11-12).
+
+use crate::lan_expansion::{DIAMETER, Run, at, curve, over, plot};
+use crate::layers::{GRAVITY, Layers};
+use crate::study::{Ran, Request};
+use brazilnut_base::figure::{Axis, Style};
+use brazilnut_runner::Failure;
+use std::f64::consts::PI;
+
+/// Collisions of a grain per second by kinetic theory, (24/sqrt(pi)) nu g0 sqrt(T)/d: Lan's formula of
+/// section 4.2 with its dimensions put right, averaged over the mass of a profile.
+fn kinetic(l: &Layers) -> f64 {
+    let (mut sum, mut mass) = (0.0, 0.0);
+    for k in l.full() {
+        let nu = l.solids[k];
+        let g0 = (2.0 - nu) / (2.0 * (1.0 - nu).powi(3));
+        let root = l.w[k] * (DIAMETER * GRAVITY).sqrt();
+        sum += nu * 24.0 / PI.sqrt() * nu * g0 * root / DIAMETER;
+        mass += nu;
+    }
+    sum / mass
+}
+
+/// The quantities and plots, from the runs of `lan-expansion`; the short form is the full one.
+///
+/// # Errors
+/// Whatever a run fails with.
+pub fn run(request: &Request) -> Result<Ran, Failure> {
+    let runs = Run::all(request)?;
+    let temperature = |g: f64| at(&runs, g).temperatures();
+    let rate = |g: f64| at(&runs, g).rates();
+    let computed = vec![
+        over("temperature at gamma 3.15 over that at 1.2", &temperature(3.15), &temperature(1.2)),
+        over("collisions at gamma 3.15 over those at 1.2", &rate(3.15), &rate(1.2)),
+    ];
+    let theory = |r: &Run| r.bed.seeds.iter().map(kinetic).collect();
+    let figures = vec![
+        plot(
+            "Temperature of the cell",
+            "Fluctuations about the mean of each layer at each instant, over the whole mass; bars: standard error of the seeds.",
+            Axis::log("granular temperature", "m^2/s^2"),
+            vec![curve("granular temperature", &runs, Run::temperatures)],
+        ),
+        plot(
+            "Collisions of a grain",
+            "Contacts that begin, per grain and second, with grains and with the floor. Dashed: kinetic theory from the mean profiles, grains only.",
+            Axis::log("collisions per grain", "Hz"),
+            vec![
+                curve("counted", &runs, Run::rates),
+                curve("kinetic theory", &runs, theory).styled(Style::Dashed),
+            ],
+        ),
+    ];
+    Ok(Ran { computed, figures })
+}
