@@ -6,10 +6,8 @@ use crate::{
     clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11, clement_heap, clement_lubrication,
     clement_modified_kroll_peaks, clement_sedimentation, clement_sphere_drag, clement_thrown_bed,
     clement_tilt, lan_acceleration, lan_arching, lan_convection, lan_coupling_spectra, lan_depth_profiles,
-    lan_kinetic_theory, lan_large_sphere, lan_self_diffusion, lan_stiffness,
-    clement_fig_2_4_to_2_7, clement_fig_4_1_to_4_3, clement_fig_5_17, clement_fig_6_11,
-    clement_modified_kroll_peaks, lan_acceleration, lan_coupling_spectra, lan_depth_profiles, lan_expansion,
-    lan_kinetic_theory, lan_self_diffusion, lan_stiffness, lan_temperature_collisions,
+    lan_expansion, lan_kinetic_theory, lan_large_sphere, lan_self_diffusion, lan_stiffness,
+    lan_temperature_collisions,
 };
 
 /// A study whose folder and id agree.
