@@ -104,6 +104,11 @@ pub fn grid_fluid(v: &Values, cell: &Cell, spacing: f64, issues: &mut Issues) ->
         let high = std::array::from_fn(|a| if flat(a) { 1 } else { place(high, a) });
         spec.solids.push(Solid { low, high });
     }
+    if let Err(why) = spec.clone().checked() {
+        let remedy = "see `brazilnut describe fluid`";
+        issues.add(f.span.clone(), "the fluid cannot be set up like this", why.to_string(), remedy);
+        return None;
+    }
     Some(spec)
 }
 

@@ -190,7 +190,8 @@ impl Sheet {
         frequency: Option<f64>,
     ) {
         let body = spec.spring_body(p.mass, p.radius, tracers, grid.cell_volume());
-        if body.template_mass <= 0.0 {
+        // Mass and volume come by different ways: equal densities leave a template of rounding.
+        if body.template_mass <= 1e-9 * p.mass {
             self.refuse(
                 format!("{} are too light for `fluid-springs`", p.name),
                 "they are no denser than the fluid: their template has no mass".into(),

@@ -55,14 +55,14 @@ impl Grid {
         Self { cells, spacing, sides, line_axis }
     }
 
-    /// The grid that fills `cell` with cells nearest to `spacing` (m) in each direction.
+    /// The grid that fills `cell` with cells nearest to `spacing` (m) in each direction, at least two of them.
     #[must_use]
     pub fn fill(cell: &Cell, spacing: f64) -> Self {
         let mut cells = [1; 3];
         let mut edge = cell.size.to_array();
         for axis in 0..3 {
             if cell.sides[axis] != Side::Flat {
-                cells[axis] = ((cell.size[axis] / spacing).round() as usize).max(1);
+                cells[axis] = ((cell.size[axis] / spacing).round() as usize).max(2);
                 edge[axis] = cell.size[axis] / cells[axis] as f64;
             }
         }

@@ -127,7 +127,10 @@ impl FluidSpec {
     }
 
     /// Checks the numbers and lays the grid out for the sides.
-    pub(crate) fn checked(mut self) -> Result<Self, SpecError> {
+    ///
+    /// # Errors
+    /// All that is wrong.
+    pub fn checked(mut self) -> Result<Self, SpecError> {
         let mut problems = vec![];
         let mut require = |ok: bool, what: String| {
             if !ok {
