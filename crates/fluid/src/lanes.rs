@@ -102,18 +102,18 @@ macro_rules! native {
     };
 }
 
-/// Asks for the memory of `row` ahead of its use.
+/// Asks for the cache line at `place` ahead of its use.
 #[inline(always)]
 #[allow(unsafe_code, reason = "a hint by address")]
-pub(crate) fn prefetch(row: &[f64]) {
+pub(crate) fn prefetch(place: *const f64) {
     #[cfg(target_arch = "x86_64")]
-    for line in row.chunks(8) {
-        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: every x86-64 processor has the instruction, and it changes nothing.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(line.as_ptr().cast()) };
+    {
+        use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
+        // SAFETY: every x86-64 processor has the instruction, and it changes nothing at any address.
+        unsafe { _mm_prefetch::<_MM_HINT_T1>(place.cast()) };
     }
     #[cfg(not(target_arch = "x86_64"))]
-    let _ = row;
+    let _ = place;
 }
 
 impl<const W: usize, const FUSED: bool> Lanes<W, FUSED> {

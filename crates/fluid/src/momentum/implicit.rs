@@ -274,6 +274,11 @@ impl Rows for Inner<'_, '_> {
     fn row_mut(&mut self, r: usize) -> &mut [f64] {
         self.0.row_mut(r + self.1)
     }
+
+    #[inline(always)]
+    fn ahead(&self, width: usize) -> usize {
+        self.0.ahead(width)
+    }
 }
 
 impl Kernel for Across<'_, '_> {

@@ -237,13 +237,22 @@ fn pass8<const W: usize, const F: bool>(l: Lanes<W, F>, z: &mut [Complex<W>], s:
         return;
     }
     for block in z.chunks_exact_mut(8 * s.part) {
-        let mut legs = parts::<8, _>(block, s.part);
-        for (j, w) in s.twiddles.as_chunks::<7>().0.iter().enumerate() {
-            let leg = |p: usize| if p == 0 { legs[0][j] } else { turned(l, legs[p][j], w[p - 1]) };
-            let y = butterfly8(l, std::array::from_fn(leg));
-            for (leg, y) in legs.iter_mut().zip(y) {
-                leg[j] = y;
-            }
+        let [a, b, c, d, e, f, g, h] = parts::<8, _>(block, s.part);
+        let low = a.iter_mut().zip(b).zip(c).zip(d);
+        let high = e.iter_mut().zip(f).zip(g).zip(h);
+        for ((low, high), w) in low.zip(high).zip(s.twiddles.as_chunks::<7>().0) {
+            let ((((a, b), c), d), (((e, f), g), h)) = (low, high);
+            let x = [
+                *a,
+                turned(l, *b, w[0]),
+                turned(l, *c, w[1]),
+                turned(l, *d, w[2]),
+                turned(l, *e, w[3]),
+                turned(l, *f, w[4]),
+                turned(l, *g, w[5]),
+                turned(l, *h, w[6]),
+            ];
+            [*a, *b, *c, *d, *e, *f, *g, *h] = butterfly8(l, x);
         }
     }
 }

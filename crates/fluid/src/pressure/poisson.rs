@@ -14,7 +14,7 @@ use super::rows::{Block, Cut, Plane, Rows, Slab, for_each_slab};
 use super::transform::{Family, Transform, eigenvalue};
 use super::tridiagonal::{End, Lines, remove_mean, solve_closed_singular};
 use crate::grid::{Grid, largest_prime};
-use crate::lanes::{Kernel, Lanes, Path, dispatch, prefetch};
+use crate::lanes::{Kernel, Lanes, Path, dispatch};
 use crate::parallel::{Scratch, WORTH_THREADS};
 use crate::spec::Instructions;
 use brazilnut_base::Side;
@@ -244,14 +244,11 @@ fn transform<const W: usize, const F: bool>(
             let mut column = 0;
             while column < width {
                 let half = column + 2 * W > width;
-                // Columns are far apart in memory: no processor guesses which come next.
-                for r in 0..t.length {
-                    let row = rows.row(r);
-                    prefetch(&row[(column + 2 * W).min(width)..(column + 4 * W).min(width)]);
-                }
-                match direction {
-                    Direction::Forward => t.forward(l, rows, column, half, z),
-                    Direction::Inverse => t.inverse(l, rows, column, half, z),
+                match (direction, half) {
+                    (Direction::Forward, false) => t.forward::<false, W, F>(l, rows, column, z),
+                    (Direction::Forward, true) => t.forward::<true, W, F>(l, rows, column, z),
+                    (Direction::Inverse, false) => t.inverse::<false, W, F>(l, rows, column, z),
+                    (Direction::Inverse, true) => t.inverse::<true, W, F>(l, rows, column, z),
                 }
                 column += 2 * W;
             }

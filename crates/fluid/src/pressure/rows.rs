@@ -9,6 +9,8 @@ pub(crate) trait Rows {
     fn row(&self, r: usize) -> &[f64];
     /// Row `r`, to be changed.
     fn row_mut(&mut self, r: usize) -> &mut [f64];
+    /// How far ahead in memory lies what is needed after `width` columns of a row, if these are taken across all rows.
+    fn ahead(&self, width: usize) -> usize;
 }
 
 /// The rows of one plane, one after the other.
@@ -26,6 +28,12 @@ impl Rows for Plane<'_> {
     #[inline(always)]
     fn row_mut(&mut self, r: usize) -> &mut [f64] {
         &mut self.data[r * self.pitch..][..self.pitch]
+    }
+
+    /// The same place of the next plane: this one was asked for while the last one was worked on.
+    #[inline(always)]
+    fn ahead(&self, _: usize) -> usize {
+        self.data.len()
     }
 }
 
@@ -80,6 +88,12 @@ impl Rows for Slab<'_> {
         assert!(r < self.count);
         // SAFETY: as above; the borrow of the slab keeps rows from being lent twice.
         unsafe { std::slice::from_raw_parts_mut(self.start.add(r * self.stride), self.width) }
+    }
+
+    /// The next columns; beyond the end of a row lies the row of the next slab.
+    #[inline(always)]
+    fn ahead(&self, width: usize) -> usize {
+        width
     }
 }
 

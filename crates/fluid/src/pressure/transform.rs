@@ -12,7 +12,7 @@
 
 use super::fft::{Complex, Plan};
 use super::rows::Rows;
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, prefetch};
 use std::f64::consts::PI;
 
 /// Which transform a direction takes.
@@ -51,32 +51,42 @@ pub fn eigenvalue(family: Family, k: usize, n: usize) -> f64 {
 }
 
 /// `2 W` columns of row `r`, or `W` and zeros.
+///
+/// `HALF` is a constant: a condition here sends every vector through the stack.
 #[inline(always)]
-fn get<const W: usize, const F: bool>(
+fn get<const HALF: bool, const W: usize, const F: bool>(
     l: Lanes<W, F>,
     rows: &impl Rows,
     r: usize,
     column: usize,
-    half: bool,
 ) -> Complex<W> {
     let row = &rows.row(r)[column..];
-    [l.load(row), if half { [0.0; W] } else { l.load(&row[W..]) }]
+    [l.load(row), if HALF { [0.0; W] } else { l.load(&row[W..]) }]
 }
 
 /// Undoes [`get`].
 #[inline(always)]
-fn put<const W: usize, const F: bool>(
+fn put<const HALF: bool, const W: usize, const F: bool>(
     l: Lanes<W, F>,
     rows: &mut impl Rows,
     r: usize,
     column: usize,
-    half: bool,
     x: Complex<W>,
 ) {
     let row = &mut rows.row_mut(r)[column..];
     l.store(row, x[0]);
-    if !half {
+    if !HALF {
         l.store(&mut row[W..], x[1]);
+    }
+}
+
+/// Asks for what a transform will need after these columns of row `r`: a step
+/// from row to row is too long for a processor to guess it.
+#[inline(always)]
+fn prefetch_beyond<const W: usize>(rows: &impl Rows, r: usize, column: usize) {
+    let next = rows.row(r).as_ptr().wrapping_add(column + rows.ahead(2 * W));
+    for line in (0..2 * W).step_by(8) {
+        prefetch(next.wrapping_add(line));
     }
 }
 
@@ -107,23 +117,30 @@ impl Transform {
         Self { length, plan, source, point, place, shift }
     }
 
-    /// Transforms `2 W` columns from `column` on, in place; with `half`, only
+    /// Transforms `2 W` columns from `column` on, in place; with `HALF`, only
     /// the first `W` of them.
     #[inline(always)]
-    pub fn forward<const W: usize, const F: bool>(
+    pub fn forward<const HALF: bool, const W: usize, const F: bool>(
         &self,
         l: Lanes<W, F>,
         rows: &mut impl Rows,
         column: usize,
-        half: bool,
         z: &mut [Complex<W>],
     ) {
+        // Straight from memory to memory: a pair in between would go through the stack.
         for (z, &i) in z.iter_mut().zip(&self.source) {
-            *z = get(l, rows, i, column, half);
+            prefetch_beyond::<W>(rows, i, column);
+            let row = &rows.row(i)[column..];
+            z[0].copy_from_slice(&row[..W]);
+            if HALF {
+                z[1] = [0.0; W];
+            } else {
+                z[1].copy_from_slice(&row[W..2 * W]);
+            }
         }
         self.plan.run(l, z);
         let n = self.length;
-        put(l, rows, 0, column, half, z[0]);
+        put::<HALF, W, F>(l, rows, 0, column, z[0]);
         for k in 1..=n / 2 {
             let [c, s] = self.shift[k];
             let (p, q) = (z[k], z[n - k]);
@@ -132,37 +149,38 @@ impl Transform {
             let (re_b, im_b) = (l.add(p[1], q[1]), l.sub(p[0], q[0]));
             let (c, s) = ([0.5 * c; W], [0.5 * s; W]);
             let x = [l.vmsub(c, re_a, l.mul(s, im_a)), l.vmsub(c, re_b, l.mul(s, im_b))];
-            put(l, rows, k, column, half, x);
+            put::<HALF, W, F>(l, rows, k, column, x);
             if 2 * k < n {
                 let y = [l.vmadd(s, re_a, l.mul(c, im_a)), l.vmadd(s, re_b, l.mul(c, im_b))];
-                put(l, rows, n - k, column, half, y);
+                put::<HALF, W, F>(l, rows, n - k, column, y);
             }
         }
     }
 
     /// Undoes [`Self::forward`], times `length`.
     #[inline(always)]
-    pub fn inverse<const W: usize, const F: bool>(
+    pub fn inverse<const HALF: bool, const W: usize, const F: bool>(
         &self,
         l: Lanes<W, F>,
         rows: &mut impl Rows,
         column: usize,
-        half: bool,
         z: &mut [Complex<W>],
     ) {
         let n = self.length;
         // Real and imaginary parts change places: a forward transform then inverts.
-        let [re, im] = get(l, rows, 0, column, half);
+        let [re, im] = get::<HALF, W, F>(l, rows, 0, column);
         z[self.place[0]] = [im, re];
         for k in 1..=n / 2 {
             let [c, s] = self.shift[k];
-            let [a, b] = get(l, rows, k, column, half);
+            prefetch_beyond::<W>(rows, k, column);
+            let [a, b] = get::<HALF, W, F>(l, rows, k, column);
             if 2 * k == n {
                 let x = [c + s; W];
                 z[self.place[k]] = [l.mul(x, b), l.mul(x, a)];
                 break;
             }
-            let [a_far, b_far] = get(l, rows, n - k, column, half);
+            prefetch_beyond::<W>(rows, n - k, column);
+            let [a_far, b_far] = get::<HALF, W, F>(l, rows, n - k, column);
             let (c, s) = ([c; W], [s; W]);
             let (re_a, im_a) = (l.vmadd(c, a, l.mul(s, a_far)), l.vmsub(c, a_far, l.mul(s, a)));
             let (re_b, im_b) = (l.vmadd(c, b, l.mul(s, b_far)), l.vmsub(c, b_far, l.mul(s, b)));
@@ -171,7 +189,11 @@ impl Transform {
         }
         self.plan.run(l, z);
         for (z, &i) in z.iter().zip(&self.point) {
-            put(l, rows, i, column, half, [z[1], z[0]]);
+            let row = &mut rows.row_mut(i)[column..];
+            row[..W].copy_from_slice(&z[1]);
+            if !HALF {
+                row[W..2 * W].copy_from_slice(&z[0]);
+            }
         }
     }
 }
