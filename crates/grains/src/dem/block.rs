@@ -225,7 +225,7 @@ impl<S: Scheme, F: Field> Job for Motion<'_, S, F> {
             forces: &mut self.work.forces[..n],
             couples: &self.work.couples,
         };
-        self.work.passed = motion::advance::<S, F>(&mut movers, self.course.pace, self.course.field);
+        self.work.passed = motion::advance::<S, F, R::Quad>(&mut movers, self.course.pace, self.course.field);
     }
 }
 

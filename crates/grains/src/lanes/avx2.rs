@@ -10,6 +10,7 @@
 use super::Wide;
 use super::x86::{lanes_of_a_register, prefetch};
 use crate::contact::real::{Mask, Real};
+use crate::motion::Quad;
 use crate::packed::{Force, Row, Spin};
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -102,6 +103,8 @@ fn part(row: &[f64], at: usize) -> __m256d {
 }
 
 impl Wide for Avx2 {
+    type Quad = Self;
+
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
         Self::from_slice(from)
@@ -184,5 +187,52 @@ impl Wide for Avx2 {
                 }
             }
         }
+    }
+}
+
+impl Quad for Avx2 {
+    #[inline(always)]
+    fn of(lanes: [f64; 4]) -> Self {
+        Self::from_slice(&lanes)
+    }
+
+    #[inline(always)]
+    fn lanes(self) -> [f64; 4] {
+        let mut lanes = [0.0; 4];
+        self.to_slice(&mut lanes);
+        lanes
+    }
+
+    #[inline(always)]
+    fn load(row: &[f64], at: usize) -> Self {
+        Self(part(row, at))
+    }
+
+    #[inline(always)]
+    fn store(self, row: &mut [f64], at: usize) {
+        self.to_slice(&mut row[at..]);
+    }
+
+    #[inline(always)]
+    fn with(self, x: f64) -> Self {
+        Self(unsafe { _mm256_blend_pd::<0b1000>(self.0, _mm256_set1_pd(x)) })
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(unsafe { _mm256_min_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(unsafe { _mm256_max_pd(self.0, other.0) })
+    }
+}
+
+impl Mul<f64> for Avx2 {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, x: f64) -> Self {
+        Self(unsafe { _mm256_mul_pd(self.0, _mm256_set1_pd(x)) })
     }
 }

@@ -7,8 +7,8 @@
 // exists only inside a sweep that `dispatch` entered after asking the
 // processor, which is what makes the calls sound.
 
-use super::Wide;
 use super::x86::{lanes_of_a_register, prefetch};
+use super::{Avx2, Wide};
 use crate::contact::real::{Mask, Real};
 use crate::packed::{Force, Row, Spin};
 use std::arch::x86_64::*;
@@ -133,6 +133,8 @@ fn spin_rows(spins: &[Spin], i: &[u32], j: &[u32], a: usize, b: usize) -> __m512
 }
 
 impl Wide for Avx512 {
+    type Quad = Avx2;
+
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
         Self::from_slice(from)

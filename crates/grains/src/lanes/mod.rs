@@ -17,6 +17,7 @@ pub use avx512::Avx512;
 pub use level::{Job, Level};
 
 use crate::contact::real::Real;
+use crate::motion::{Array, Quad};
 use crate::packed::{Couple, Force, Row, Spin};
 
 impl Adds {
@@ -41,6 +42,9 @@ pub enum Adds {
 
 /// A lane type that knows how to move rows in and out.
 pub trait Wide: Real {
+    /// Half rows with the same instructions.
+    type Quad: Quad;
+
     /// The first `WIDTH` values.
     fn load(from: &[f64]) -> Self;
 
@@ -141,6 +145,8 @@ pub trait Wide: Real {
 }
 
 impl Wide for f64 {
+    type Quad = Array;
+
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
         from[0]

@@ -40,12 +40,12 @@ macro_rules! lanes_of_a_register {
                 for (k, a) in a.iter_mut().enumerate() {
                     *a = f(k);
                 }
-                Self::load(&a)
+                Self::from_slice(&a)
             }
             #[inline(always)]
             fn lane(self, k: usize) -> f64 {
                 let mut a = [0.0; $lanes];
-                self.store(&mut a);
+                self.to_slice(&mut a);
                 a[k]
             }
             #[inline(always)]

@@ -21,17 +21,16 @@ impl Scheme for Gear {
     const HIGHER: bool = true;
 
     #[inline(always)]
-    fn translate(
-        r: Quad,
-        v: Quad,
+    fn translate<Q: Quad>(
+        r: Q,
+        v: Q,
         half: &mut [f64; 8],
         higher: &mut [f64; 12],
-        a: Quad,
+        a: Q,
         pace: &Pace,
-    ) -> Moved {
+    ) -> Moved<Q> {
         let dt = pace.tick.dt;
-        let (a_p, b_p) =
-            if pace.kick.first { (a, Quad::default()) } else { (get(higher, 0), get(higher, 3)) };
+        let (a_p, b_p) = if pace.kick.first { (a, Q::splat(0.0)) } else { (get(higher, 0), get(higher, 3)) };
         let error = (a - a_p) * (0.5 * dt * dt);
         let r_c = r + error * C[0];
         let v_c = v + error * (C[1] / dt);
@@ -44,16 +43,16 @@ impl Scheme for Gear {
     }
 
     #[inline(always)]
-    fn rotate(
-        omega: Quad,
+    fn rotate<Q: Quad>(
+        omega: Q,
         half: &mut [f64; 8],
         higher: &mut [f64; 12],
-        alpha: Quad,
+        alpha: Q,
         pace: &Pace,
-    ) -> (Quad, Quad) {
+    ) -> (Q, Q) {
         let dt = pace.tick.dt;
         let (a_p, b_p) =
-            if pace.kick.first { (alpha, Quad::default()) } else { (get(higher, 6), get(higher, 9)) };
+            if pace.kick.first { (alpha, Q::splat(0.0)) } else { (get(higher, 6), get(higher, 9)) };
         let error = (alpha - a_p) * (0.5 * dt * dt);
         let omega_c = omega + error * (C[1] / dt);
         let b_c = b_p + error * (C[3] * 6.0 / (dt * dt * dt));
@@ -70,12 +69,12 @@ impl Scheme for Gear {
 
 /// Three numbers from place `at` on as a vector.
 #[inline(always)]
-fn get(higher: &[f64; 12], at: usize) -> Quad {
-    Quad([higher[at], higher[at + 1], higher[at + 2], 0.0])
+fn get<Q: Quad>(higher: &[f64; 12], at: usize) -> Q {
+    Q::of([higher[at], higher[at + 1], higher[at + 2], 0.0])
 }
 
 /// Writes a vector there.
 #[inline(always)]
-fn put(higher: &mut [f64; 12], at: usize, v: Quad) {
-    higher[at..at + 3].copy_from_slice(&v.0[..3]);
+fn put<Q: Quad>(higher: &mut [f64; 12], at: usize, v: Q) {
+    higher[at..at + 3].copy_from_slice(&v.lanes()[..3]);
 }

@@ -7,13 +7,13 @@ mod scheme;
 mod verlet;
 
 pub use gear::Gear;
+pub use quad::{Array, Quad};
 pub use scheme::{Kick, Moved, Scheme};
 pub use verlet::{PositionVerlet, VelocityVerlet};
 
 use crate::field::{Field, GrainAt, Push};
 use crate::packed::{Couple, Force, Half, Rest, Row, Spin, Tag};
 use brazilnut_base::{Tick, Vec3, vec3};
-use quad::Quad;
 
 /// What is the same for all grains of a step.
 #[derive(Clone, Copy, Debug)]
@@ -80,72 +80,76 @@ impl Passed {
 }
 
 /// [`Passed`] while the pass runs, component by component.
-struct Sums {
-    work: [Quad; 3],
-    moved: [Quad; 2],
-    extent: [Quad; 2],
+struct Sums<Q> {
+    work: [Q; 3],
+    moved: [Q; 2],
+    extent: [Q; 2],
 }
 
-impl Sums {
+impl<Q: Quad> Sums<Q> {
     fn nothing() -> Self {
-        let ends = [Quad::splat(f64::INFINITY), Quad::splat(f64::NEG_INFINITY)];
-        Self { work: [Quad::splat(0.0); 3], moved: ends, extent: ends }
+        let ends = [Q::splat(f64::INFINITY), Q::splat(f64::NEG_INFINITY)];
+        Self { work: [Q::splat(0.0); 3], moved: ends, extent: ends }
     }
 
     /// Takes note of a grain that `push` moved as `moved` says, turning at `turned` (rad/s) meanwhile.
     #[inline(always)]
-    fn note(&mut self, pace: &Pace, push: &Push, moved: &Moved, turned: Quad) {
+    fn note(&mut self, pace: &Pace, push: &Push, moved: &Moved<Q>, turned: Q) {
         let length = pace.kick.length;
         let path = moved.middle * length;
-        self.work[0] = self.work[0] + Quad::from(push.gravity) * path;
-        self.work[1] = self.work[1] + Quad::from(push.frame) * path;
-        let torque = Quad::from(push.torque) * (turned * length);
-        self.work[2] = self.work[2] + (Quad::from(push.fluid) * path + torque);
+        self.work[0] = self.work[0] + Q::from(push.gravity) * path;
+        self.work[1] = self.work[1] + Q::from(push.frame) * path;
+        let torque = Q::from(push.torque) * (turned * length);
+        self.work[2] = self.work[2] + (Q::from(push.fluid) * path + torque);
         self.moved = [self.moved[0].min(moved.step), self.moved[1].max(moved.step)];
         self.extent = [self.extent[0].min(moved.position), self.extent[1].max(moved.position)];
     }
 
     fn passed(&self) -> Passed {
+        let sum = |w: Q| {
+            let [x, y, z, _] = w.lanes();
+            x + y + z
+        };
         Passed {
-            work: self.work.map(|w| w.0[0] + w.0[1] + w.0[2]),
-            moved: self.moved.map(Quad::vector),
-            extent: self.extent.map(Quad::vector),
+            work: self.work.map(sum),
+            moved: self.moved.map(Q::vector),
+            extent: self.extent.map(Q::vector),
         }
     }
 }
 
 /// Moves every grain of the block by one step.
 #[inline(always)]
-pub fn advance<S: Scheme, F: Field>(m: &mut Movers<'_>, pace: &Pace, field: &F) -> Passed {
-    let mut sums = Sums::nothing();
-    let (free, turns) = (Quad::from(pace.free), Quad::from(pace.turns));
+pub fn advance<S: Scheme, F: Field, Q: Quad>(m: &mut Movers<'_>, pace: &Pace, field: &F) -> Passed {
+    let mut sums = Sums::<Q>::nothing();
+    let (free, turns) = (Q::from(pace.free), Q::from(pace.turns));
     for g in 0..m.rows.len() {
         let (row, spin, forces) = (&mut m.rows[g].0, &mut m.spins[g].0, &mut m.forces[g].0);
-        let (contact, lever) = (Quad::load(forces, 0), Quad::load(forces, 4));
+        let (contact, lever) = (Q::load(forces, 0), Q::load(forces, 4));
         *forces = [0.0; 8];
         let half = &mut m.halves[g].0;
         let push = field.push(&pace.tick, &grain_at(row, spin, half, m.tags[g]));
-        let outside = Quad::from(push.gravity) + Quad::from(push.frame) + Quad::from(push.fluid);
+        let outside = Q::from(push.gravity) + Q::from(push.frame) + Q::from(push.fluid);
         let mut none = [0.0; 12];
         let higher = if S::HIGHER { &mut m.higher[g] } else { &mut none };
 
         let acceleration = (contact + outside) * row[7] * free;
-        let (position, velocity) = (Quad::load(row, 0), Quad::load(row, 4));
+        let (position, velocity) = (Q::load(row, 0), Q::load(row, 4));
         let moved = S::translate(position, velocity, half, higher, acceleration, pace);
         moved.position.with(row[3]).store(row, 0);
         moved.velocity.with(row[7]).store(row, 4);
 
-        let mut turned = Quad::splat(0.0);
+        let mut turned = Q::splat(0.0);
         if pace.rotation {
-            let couple = m.couples.get(g).map_or(Quad::splat(0.0), |c| Quad(c.0));
+            let couple = m.couples.get(g).map_or(Q::splat(0.0), |c| Q::of(c.0));
             // half[7] is r/I and spin[3] is 1/r: torque over inertia.
-            let torque = (couple + Quad::from(push.torque)) * spin[3] - lever;
+            let torque = (couple + Q::from(push.torque)) * spin[3] - lever;
             let alpha = torque * half[7] * turns;
-            let omega = Quad(*spin) * spin[3];
+            let omega = Q::load(spin, 0) * spin[3];
             let (mid, omega) = S::rotate(omega, half, higher, alpha, pace);
             turned = mid;
             (omega * row[3]).with(spin[3]).store(spin, 0);
-            rotation::turn(&mut m.rest[g].orientation, Quad::load(half, 4) * (0.5 * pace.tick.dt));
+            rotation::turn(&mut m.rest[g].orientation, Q::load(half, 4) * (0.5 * pace.tick.dt));
         }
         sums.note(pace, &push, &moved, turned);
     }

@@ -5,16 +5,17 @@ use super::quad::Quad;
 /// Turns the orientation `q` (x y z w) by twice the small rotation vector `half` (rad):
 /// q <- (half, 1) q, brought back to unit length. Third order in the angle.
 #[inline(always)]
-pub fn turn(q: &mut [f64; 4], half: Quad) {
-    let ([x, y, z, w], [a, b, c, _]) = (*q, half.0);
-    let new = Quad(*q) + Quad([w, -z, y, -x]) * a + Quad([z, w, -x, -y]) * b + Quad([-y, x, w, -z]) * c;
+pub fn turn<Q: Quad>(q: &mut [f64; 4], half: Q) {
+    let ([x, y, z, w], [a, b, c, _]) = (*q, half.lanes());
+    let new = Q::of(*q) + Q::of([w, -z, y, -x]) * a + Q::of([z, w, -x, -y]) * b + Q::of([-y, x, w, -z]) * c;
     // One Newton step of 1/sqrt: the length is 1 up to the square of the angle.
-    let [x, y, z, w] = (new * new).0;
-    *q = (new * (1.5 - 0.5 * ((x + y) + (z + w)))).0;
+    let [x, y, z, w] = (new * new).lanes();
+    (new * (1.5 - 0.5 * ((x + y) + (z + w)))).store(q, 0);
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::quad::Array;
     use super::*;
     use brazilnut_base::Quat;
 
@@ -23,7 +24,7 @@ mod tests {
         let mut q = Quat::IDENTITY.to_array();
         let n = 10_000;
         for _ in 0..n {
-            turn(&mut q, Quad([0.0, 0.0, 0.5 / f64::from(n), 0.0]));
+            turn(&mut q, Array::of([0.0, 0.0, 0.5 / f64::from(n), 0.0]));
         }
         let q = Quat::from_array(q);
         // Each turn is atan(a/2)*2 = a - a³/12: relative 1e-9 at a = 1e-4.

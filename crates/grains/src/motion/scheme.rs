@@ -15,15 +15,15 @@ pub struct Kick {
 
 /// A grain after its step.
 #[derive(Clone, Copy, Debug)]
-pub struct Moved {
+pub struct Moved<Q> {
     /// Position, m.
-    pub position: Quad,
+    pub position: Q,
     /// Velocity of second order at that time, m/s.
-    pub velocity: Quad,
+    pub velocity: Q,
     /// Velocity in the middle of the kick, m/s: the force times it is the exact power.
-    pub middle: Quad,
+    pub middle: Q,
     /// Displacement, m.
-    pub step: Quad,
+    pub step: Q,
 }
 
 /// An integrator; formulae for one grain.
@@ -37,24 +37,24 @@ pub trait Scheme {
     const HIGHER: bool;
 
     /// Moves a grain at `position` with predicted `velocity` under `acceleration` (m/s²).
-    fn translate(
-        position: Quad,
-        velocity: Quad,
+    fn translate<Q: Quad>(
+        position: Q,
+        velocity: Q,
         half: &mut [f64; 8],
         higher: &mut [f64; 12],
-        acceleration: Quad,
+        acceleration: Q,
         pace: &Pace,
-    ) -> Moved;
+    ) -> Moved<Q>;
 
     /// Turns a grain under the angular acceleration `alpha` (1/s²); the angular
     /// velocities in the middle of the kick and at the end of the step.
-    fn rotate(
-        omega: Quad,
+    fn rotate<Q: Quad>(
+        omega: Q,
         half: &mut [f64; 8],
         higher: &mut [f64; 12],
-        alpha: Quad,
+        alpha: Q,
         pace: &Pace,
-    ) -> (Quad, Quad);
+    ) -> (Q, Q);
 
     /// What `half` holds at the start for a body with velocity `v`: three numbers.
     fn half_of(v: Vec3, dt: f64) -> Vec3;

@@ -16,9 +16,9 @@ impl Scheme for VelocityVerlet {
     const HIGHER: bool = false;
 
     #[inline(always)]
-    fn translate(r: Quad, _: Quad, half: &mut [f64; 8], _: &mut [f64; 12], a: Quad, pace: &Pace) -> Moved {
+    fn translate<Q: Quad>(r: Q, _: Q, half: &mut [f64; 8], _: &mut [f64; 12], a: Q, pace: &Pace) -> Moved<Q> {
         let dt = pace.tick.dt;
-        let before = Quad::load(half, 0);
+        let before = Q::load(half, 0);
         let after = before + a * pace.kick.length;
         after.store(half, 0);
         let step = after * dt;
@@ -26,7 +26,7 @@ impl Scheme for VelocityVerlet {
     }
 
     #[inline(always)]
-    fn rotate(_: Quad, half: &mut [f64; 8], _: &mut [f64; 12], alpha: Quad, pace: &Pace) -> (Quad, Quad) {
+    fn rotate<Q: Quad>(_: Q, half: &mut [f64; 8], _: &mut [f64; 12], alpha: Q, pace: &Pace) -> (Q, Q) {
         kick_spin(half, alpha, pace)
     }
 
@@ -47,9 +47,9 @@ impl Scheme for PositionVerlet {
     const HIGHER: bool = false;
 
     #[inline(always)]
-    fn translate(r: Quad, _: Quad, half: &mut [f64; 8], _: &mut [f64; 12], a: Quad, pace: &Pace) -> Moved {
+    fn translate<Q: Quad>(r: Q, _: Q, half: &mut [f64; 8], _: &mut [f64; 12], a: Q, pace: &Pace) -> Moved<Q> {
         let dt = pace.tick.dt;
-        let before = Quad::load(half, 0);
+        let before = Q::load(half, 0);
         let step = before + a * (dt * pace.kick.length);
         step.store(half, 0);
         Moved {
@@ -61,7 +61,7 @@ impl Scheme for PositionVerlet {
     }
 
     #[inline(always)]
-    fn rotate(_: Quad, half: &mut [f64; 8], _: &mut [f64; 12], alpha: Quad, pace: &Pace) -> (Quad, Quad) {
+    fn rotate<Q: Quad>(_: Q, half: &mut [f64; 8], _: &mut [f64; 12], alpha: Q, pace: &Pace) -> (Q, Q) {
         kick_spin(half, alpha, pace)
     }
 
@@ -72,8 +72,8 @@ impl Scheme for PositionVerlet {
 
 /// The rotation of both forms: angles have no Verlet equation of their own.
 #[inline(always)]
-fn kick_spin(half: &mut [f64; 8], alpha: Quad, pace: &Pace) -> (Quad, Quad) {
-    let before = Quad::load(half, 4);
+fn kick_spin<Q: Quad>(half: &mut [f64; 8], alpha: Q, pace: &Pace) -> (Q, Q) {
+    let before = Q::load(half, 4);
     let after = before + alpha * pace.kick.length;
     after.store(half, 4);
     ((before + after) * 0.5, after + alpha * (0.5 * pace.tick.dt))
