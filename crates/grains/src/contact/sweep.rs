@@ -118,11 +118,16 @@ pub(super) fn forget<L: Law, R: Wide>(
 /// Pairs between asking for a row and reading it: a memory access, in time that batches take.
 const AHEAD: usize = 32;
 
+/// Grains above which the forces of a block are no longer near when their turn comes; below, asking for them costs
+/// more than it saves.
+const FAR: usize = 50_000;
+
 /// Evaluates every pair of `job` and adds its forces.
 #[inline(always)]
 pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<'_>, counted: &mut Tally) {
     let uniform = L::lanes::<R>(table, |_| 0);
     let mut indices = [0u32; BATCH];
+    let far = job.rows.len() > FAR;
     let mut p = 0;
     while p < job.len {
         let q = p + R::WIDTH;
@@ -145,7 +150,8 @@ pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<
             for k in 0..R::WIDTH {
                 later[k] = coming[k] & INDEX;
             }
-            R::announce::<SPINS>(job.rows, job.spins, &later[..R::WIDTH]);
+            let forces = far.then_some((&*job.forces, job.base.1));
+            R::announce::<SPINS>(job.rows, job.spins, forces, &later[..R::WIDTH]);
         }
         let row = R::relative(job.rows, i, j);
         let mut d = V3::new(row[0], row[1], row[2]);

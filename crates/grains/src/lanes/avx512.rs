@@ -146,10 +146,18 @@ impl Wide for Avx512 {
     }
 
     #[inline(always)]
-    fn announce<const SPINS: bool>(rows: &[Row], spins: &[Spin], j: &[u32]) {
-        prefetch(rows, j);
+    fn announce<const SPINS: bool>(
+        rows: &[Row],
+        spins: &[Spin],
+        forces: Option<(&[Force], usize)>,
+        j: &[u32],
+    ) {
+        prefetch(rows, 0, j);
+        if let Some((forces, base)) = forces {
+            prefetch(forces, base, j);
+        }
         if SPINS {
-            prefetch(spins, j);
+            prefetch(spins, 0, j);
         }
     }
 

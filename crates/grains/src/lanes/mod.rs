@@ -51,9 +51,16 @@ pub trait Wide: Real {
     /// Writes the lanes to the first `WIDTH` places.
     fn store(self, to: &mut [f64]);
 
-    /// Says that the rows and, if `SPINS`, the spins of `j` are read soon.
+    /// Says that the rows and, if `SPINS`, the spins of `j` are read soon, and maybe their forces written, with
+    /// which comes the row of the first.
     #[inline(always)]
-    fn announce<const SPINS: bool>(_rows: &[Row], _spins: &[Spin], _j: &[u32]) {}
+    fn announce<const SPINS: bool>(
+        _rows: &[Row],
+        _spins: &[Spin],
+        _forces: Option<(&[Force], usize)>,
+        _j: &[u32],
+    ) {
+    }
 
     /// Columns of `rows[i] - rows[j]`, except columns 3 and 7, which are sums.
     #[inline(always)]

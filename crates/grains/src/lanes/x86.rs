@@ -106,11 +106,11 @@ macro_rules! lanes_of_a_register {
 }
 pub(super) use lanes_of_a_register;
 
-/// Asks for the cache lines of the rows `j`, to be read some batches later.
+/// Asks for the cache lines of the rows `j`, to be read some batches later; `base` is the row of `table[0]`.
 #[inline(always)]
-pub(super) fn prefetch<T>(table: &[T], j: &[u32]) {
+pub(super) fn prefetch<T>(table: &[T], base: usize, j: &[u32]) {
     for &j in j {
-        let place = table.as_ptr().wrapping_add(j as usize);
+        let place = table.as_ptr().wrapping_add((j as usize).wrapping_sub(base));
         // Sound for any address: a prefetch reads nothing.
         unsafe { std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(place.cast()) };
     }
