@@ -15,14 +15,10 @@ const DIAMETER: f64 = 0.7e-3;
 /// Samples, one a cycle, in the mean of a dome at the start or at the end.
 const FEW: usize = 5;
 
-/// What the deciding subset lays over the case: a third of the depth, periodic in it, for a shorter time.
-const DECIDING: [&str; 5] = [
-    "cell.size=[\"20 mm\", \"1.75 mm\", \"20 mm\"]",
-    "cell.y=periodic",
-    "grains.0.count=875",
-    "time.end=4 s",
-    "observe.2.from=1 s",
-];
+/// Frictions of the walls of the subset that decides, each a run of 20 s of all grains.
+const FRICTIONS: [f64; 3] = [0.0, 0.6, 1.0];
+/// When the thesis shows the dome, s.
+const SHOWN: f64 = 10.0;
 
 /// What the short form lays over the case: a narrow bed of the same height, periodic in depth, for a short time.
 const QUICK: [&str; 5] = [
@@ -35,21 +31,28 @@ const QUICK: [&str; 5] = [
 
 /// Tables of a run.
 struct Run {
+    friction: f64,
     surface: Table,
     strength: Table,
     field: Table,
 }
 
 impl Run {
-    fn new(request: &Request) -> Result<Self, Failure> {
-        let form: &[&str] = if request.quick { &QUICK } else { &DECIDING };
-        let overrides: Vec<String> = form.iter().map(|&o| o.to_string()).collect();
-        let run = Done::new(CASE, &overrides, &request.out.join("mu-1"), !request.quick)?;
+    fn new(request: &Request, friction: f64) -> Result<Self, Failure> {
+        let form: &[&str] = if request.quick { &QUICK } else { &[] };
+        let friction_of_walls = format!("contact.pairs.0.friction={friction:?}");
+        let overrides: Vec<String> = form.iter().map(|&o| o.to_string()).chain([friction_of_walls]).collect();
+        let run = Done::new(CASE, &overrides, &request.out.join(format!("mu-{friction}")), !request.quick)?;
         Ok(Self {
+            friction,
             surface: run.table("surface")?,
             strength: run.table("convection-strength")?,
             field: run.table("convection-field")?,
         })
+    }
+
+    fn label(&self) -> String {
+        format!("mu_W {}", self.friction)
     }
 
     /// The entry of the only row of the strength.
@@ -68,6 +71,13 @@ impl Run {
         let h: Vec<f64> = self.dome().iter().map(|p| p[1]).collect();
         let few = FEW.min(h.len());
         [mean(&h[..few]), mean(&h[h.len() - few..])]
+    }
+
+    /// Mean dome within five cycles of the time at which the thesis shows it, m.
+    fn shown(&self) -> f64 {
+        let near: Vec<f64> =
+            self.dome().iter().filter(|p| (p[0] - SHOWN).abs() < 0.55).map(|p| p[1]).collect();
+        mean(&near)
     }
 
     /// Sum of r x J over the left and over the right half about the middle of each, m²; positive if the
@@ -90,33 +100,65 @@ fn mean(list: &[f64]) -> f64 {
     list.iter().sum::<f64>() / list.len() as f64
 }
 
-/// The quantities and plots. Full form: the subset that decides, friction 1 in a cell of a third of the depth.
+/// The quantities and plots. Full form: three frictions of the walls, all grains, 20 s each.
 ///
 /// # Errors
-/// Whatever the run fails with.
+/// Whatever a run fails with.
 pub fn run(request: &Request) -> Result<Ran, Failure> {
-    let run = Run::new(request)?;
-    let [left, right] = run.circulation();
-    let [first, last] = run.ends();
+    let frictions: &[f64] = if request.quick { &[1.0] } else { &FRICTIONS };
+    let runs: Vec<Run> = frictions.iter().map(|&mu| Run::new(request, mu)).collect::<Result<_, _>>()?;
+    let rough = &runs[runs.len() - 1];
+    let [first, last] = rough.ends();
     let mut computed = vec![
         Computed::new("rise of the dome, mu_W 1", (last - first) / DIAMETER),
-        Computed::new("noise over J, mu_W 1", run.strength("noise") / run.strength("strength")),
+        Computed::new("noise over J, mu_W 1", rough.strength("noise") / rough.strength("strength")),
     ];
-    if !request.quick {
+    let mut figures = vec![dome(&runs)];
+    figures.extend(runs.iter().map(field));
+    if let [smooth, middle, rough] = &runs[..] {
+        let [left, right] = rough.circulation();
+        let ratio = |a: &Run, b: &Run| {
+            let error = |r: &Run| r.strength("strength_error") / r.strength("strength");
+            let ratio = a.strength("strength") / b.strength("strength");
+            (ratio, ratio * error(a).hypot(error(b)))
+        };
+        let (low, low_error) = ratio(middle, smooth);
+        let (high, high_error) = ratio(rough, middle);
         computed.extend([
-            Computed::new("dome at the end, mu_W 1", last / DIAMETER),
+            Computed::new("dome at 10 s, mu_W 1", rough.shown() / DIAMETER),
+            Computed::new("dome at 10 s, mu_W 1 less mu_W 0", (rough.shown() - smooth.shown()) / DIAMETER),
             Computed::new(
                 "product of the signs of the two circulations, mu_W 1",
                 left.signum() * right.signum(),
             ),
             Computed::new("sign of the left circulation, mu_W 1", left.signum()),
+            Computed::with_error("J at mu_W 0.6 over J at 0", low, low_error),
+            Computed::with_error("J at mu_W 1 over J at 0.6", high, high_error),
         ]);
+        figures.push(strengths(&runs));
     }
-    Ok(Ran { computed, figures: vec![dome(&run), field(&run)] })
+    Ok(Ran { computed, figures })
 }
 
-fn dome(run: &Run) -> Figure {
-    let points: Vec<[f64; 2]> = run.dome().iter().map(|p| [p[0], p[1] / DIAMETER]).collect();
+/// J and its noise floor against the friction of the walls (Fig. 4.3).
+fn strengths(runs: &[Run]) -> Figure {
+    let points = |name: &str| runs.iter().map(|r| [r.friction, r.strength(name)]).collect::<Vec<_>>();
+    Figure {
+        title: "Strength of the convection".into(),
+        caption: "Noise: the same displacements shuffled among the grains (Fig. 4.3).".into(),
+        body: Body::Curves {
+            x: Axis::linear("friction of the walls", "1"),
+            y: Axis::linear("J", "m"),
+            curves: vec![Curve::line("J", points("strength")), Curve::line("noise floor", points("noise"))],
+        },
+    }
+}
+
+fn dome(runs: &[Run]) -> Figure {
+    let curve = |run: &Run| {
+        let points: Vec<[f64; 2]> = run.dome().iter().map(|p| [p[0], p[1] / DIAMETER]).collect();
+        Curve::line(run.label(), points)
+    };
     Figure {
         title: "Dome".into(),
         caption: "Height of the surface in the middle third less that at the walls, once a cycle at phase 0."
@@ -124,7 +166,7 @@ fn dome(run: &Run) -> Figure {
         body: Body::Curves {
             x: Axis::linear("time", "s"),
             y: Axis::linear("dome over diameter", "1"),
-            curves: vec![Curve::line("dome over diameter", points)],
+            curves: runs.iter().map(curve).collect(),
         },
     }
 }
@@ -147,7 +189,7 @@ fn field(run: &Run) -> Figure {
     };
     let moving = (0..x.len()).filter(|&k| u[k] != 0.0 || w[k] != 0.0);
     Figure {
-        title: "Displacement field, μ_W = 1".into(),
+        title: format!("Displacement field, {}", run.label()),
         caption: "Displacements per cycle summed over the grains of each cell (Fig. 4.2).".into(),
         body: Body::Map {
             x: Axis::linear("x", "m"),

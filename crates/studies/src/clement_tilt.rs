@@ -1,6 +1,7 @@
-//! A shaken bed in water piles up at the walls of its cell (Clément 4.4, Table 4.2, Fig. 4.4).
+//! A shaken bed in water piles up at the walls of its cell and tilts (Clément 4.4, Tables 4.2, 4.4, Figs 4.4, 4.10).
 
-use crate::runs::{Done, column};
+use crate::repeats::Repeats;
+use crate::runs::{Done, SEEDS, column};
 use crate::study::{Computed, Ran, Request};
 use brazilnut_base::Table;
 use brazilnut_base::figure::{Axis, Body, Curve, Figure};
@@ -12,8 +13,11 @@ const CASE: (&str, &str) =
 /// Mean diameter, m.
 const DIAMETER: f64 = 0.7e-3;
 
-/// The part of the published run that decides: until both piles stand (Fig. 4.4 b).
-const FULL: [&str; 1] = ["time.end=3 s"];
+/// When the thesis shows the surface, s (Fig. 4.4).
+const SHOWN: [f64; 3] = [3.0, 6.0, 11.0];
+
+/// Phases of Table 4.4, degrees.
+const PHASES: [f64; 2] = [135.0, 225.0];
 
 /// What the short form lays over the case: half as wide, two fifths as deep, three cycles.
 const QUICK: [&str; 5] = [
@@ -79,36 +83,145 @@ fn lower_pile(heights: &[f64]) -> f64 {
     sides[0].min(sides[1]) - mean(&heights[n / 3..n - n / 3])
 }
 
-/// The quantities and a plot.
+/// The longest part of the width over which `heights` only rise or only fall, but for a tenth of a diameter.
+fn monotonic(heights: &[f64]) -> f64 {
+    let longest = |sign: f64| {
+        let (mut best, mut start, mut top) = (0, 0, f64::NEG_INFINITY);
+        for (k, h) in heights.iter().map(|h| sign * h).enumerate() {
+            if h < top - 0.1 * DIAMETER {
+                (start, top) = (k, h);
+            }
+            top = top.max(h);
+            best = best.max(k + 1 - start);
+        }
+        best
+    };
+    longest(1.0).max(longest(-1.0)) as f64 / heights.len() as f64
+}
+
+/// Largest and least pressure of the fluid along the base by phase, Pa, at 20, 40, 60, 80 % of the width.
+fn peaks(by_phase: &Table) -> [[f64; 2]; 4] {
+    [20, 40, 60, 80].map(|at| {
+        let p = column(by_phase, &format!("fluid_at_{at}"));
+        [p.iter().copied().fold(f64::NEG_INFINITY, f64::max), p.iter().copied().fold(f64::INFINITY, f64::min)]
+    })
+}
+
+/// The quantities and plots. Full form: 11 s from three seeds.
 ///
 /// # Errors
-/// Whatever the run fails with.
+/// Whatever a run fails with.
 pub fn run(request: &Request) -> Result<Ran, Failure> {
-    let overrides: &[&str] = if request.quick { &QUICK } else { &FULL };
-    let overrides: Vec<String> = overrides.iter().map(|s| (*s).to_string()).collect();
-    let run = Done::new(CASE, &overrides, &request.out.join("navier-stokes"), !request.quick)?;
-    let surface = Surface::read(&run.table("surface")?);
-    let end = surface.time.last().copied().unwrap_or(f64::NAN);
-    let width = if request.quick { 10e-3 } else { 20e-3 };
-    let computed = vec![
-        Computed::new("slope of the settled bed", slope(&surface.first(), width).abs()),
-        Computed::new(
-            "height of the lower pile at a wall, at the end",
-            lower_pile(&surface.at(end)) / DIAMETER,
-        ),
+    let folder = request.out.join("navier-stokes");
+    if request.quick {
+        let overrides = QUICK.map(str::to_string);
+        let surface = Surface::read(&Done::new(CASE, &overrides, &folder, false)?.table("surface")?);
+        let end = surface.time.last().copied().unwrap_or(f64::NAN);
+        let computed = vec![
+            Computed::new("slope of the settled bed", slope(&surface.first(), 10e-3).abs()),
+            Computed::new(
+                "height of the lower pile at a wall, at the end",
+                lower_pile(&surface.at(end)) / DIAMETER,
+            ),
+        ];
+        return Ok(Ran { computed, figures: vec![shapes(&surface, &[end], 10e-3, "the short form")] });
+    }
+    let width = 20e-3;
+    let runs = Repeats::new(CASE, &[], &folder, SEEDS.len() as u64, true)?;
+    let surfaces: Vec<Surface> = runs.tables("surface")?.iter().map(Surface::read).collect();
+    let mean = |name: String, value: &dyn Fn(&Surface) -> f64| {
+        Computed::mean(name, &surfaces.iter().map(value).collect::<Vec<_>>())
+    };
+    let mut computed = vec![
+        mean("slope of the settled bed".into(), &|s| slope(&s.first(), width).abs()),
+        mean("height of the lower pile at a wall, at 3 s".into(), &|s| {
+            lower_pile(&s.at(SHOWN[0])) / DIAMETER
+        }),
     ];
+    computed.push(mean("height of the lower pile at a wall, at the end".into(), &|s| {
+        lower_pile(&s.at(SHOWN[2])) / DIAMETER
+    }));
+    for t in SHOWN {
+        computed.push(mean(format!("slope at {t} s"), &|s| slope(&s.at(t), width).abs()));
+    }
+    computed.push(mean("slope at 11 s over that at 3 s".into(), &|s| {
+        (slope(&s.at(SHOWN[2]), width) / slope(&s.at(SHOWN[0]), width)).abs()
+    }));
+    computed.push(mean("part of the width that rises or falls throughout, at 11 s".into(), &|s| {
+        monotonic(&s.at(SHOWN[2]))
+    }));
+
+    let points = runs.tables("flow-field-point")?;
+    for phase in PHASES {
+        for what in ["grain", "fluid", "mixture"] {
+            let speed = |t: &Table| {
+                let row = column(t, "phase").iter().position(|&p| (p - phase).abs() < 1e-6);
+                row.and_then(|k| column(t, &format!("{what}_speed")).get(k).copied()).unwrap_or(f64::NAN)
+            };
+            let speeds: Vec<f64> = points.iter().map(speed).collect();
+            computed.push(Computed::mean(format!("{what} speed at {phase} degrees"), &speeds));
+        }
+    }
+
+    // From the shallow side, as in the figure.
+    let tables = runs.tables("base-pressure-by-phase")?;
+    let along: Vec<[[f64; 2]; 4]> = tables
+        .iter()
+        .zip(&surfaces)
+        .map(|(table, surface)| {
+            let mut p = peaks(table);
+            if slope(&surface.at(SHOWN[2]), width) < 0.0 {
+                p.reverse();
+            }
+            p
+        })
+        .collect();
+    for (k, what) in ["overpressure", "underpressure"].into_iter().enumerate() {
+        let deep: Vec<f64> = along.iter().map(|p| p[3][k]).collect();
+        let ratio: Vec<f64> = along.iter().map(|p| p[3][k] / p[0][k]).collect();
+        computed.push(Computed::mean(format!("{what} at 80 % of the base"), &deep));
+        computed.push(Computed::mean(format!("{what} at 80 % over that at 20 %"), &ratio));
+    }
+    let mut figures: Vec<Figure> = surfaces
+        .iter()
+        .zip(SEEDS)
+        .map(|(s, seed)| shapes(s, &SHOWN, width, &format!("seed {seed}")))
+        .collect();
+    figures.push(pressures(&tables[0]));
+    Ok(Ran { computed, figures })
+}
+
+/// The settled surface and those at `times` (s).
+fn shapes(surface: &Surface, times: &[f64], width: f64, of: &str) -> Figure {
     let curve = |label: String, h: Vec<f64>| {
         let x = |k: usize| (k as f64 + 0.5) / h.len() as f64 * width;
         Curve::line(label, h.iter().enumerate().map(|(k, z)| [x(k), *z]).collect())
     };
     let mut curves = vec![curve("0 s".into(), surface.first())];
-    curves.extend([end / 3.0, 2.0 * end / 3.0, end].map(|t| curve(format!("{t:.1} s"), surface.at(t))));
-    let figure = Figure {
-        title: "Surface".into(),
+    curves.extend(times.iter().map(|&t| curve(format!("{t:.1} s"), surface.at(t))));
+    Figure {
+        title: format!("Surface, {of}"),
         caption: "Height of the bed, means over the second before; at 0 s the settled bed.".into(),
         body: Body::Curves { x: Axis::linear("x", "m"), y: Axis::linear("height", "m"), curves },
+    }
+}
+
+/// Pressure along the base against phase (Fig. 4.10).
+fn pressures(table: &Table) -> Figure {
+    let phase = column(table, "phase");
+    let curve = |at: u32| {
+        let p = column(table, &format!("fluid_at_{at}"));
+        Curve::line(format!("{at} % of the width"), phase.iter().zip(p).map(|(x, y)| [*x, y]).collect())
     };
-    Ok(Ran { computed, figures: vec![figure] })
+    Figure {
+        title: "Pressure along the base, seed 1".into(),
+        caption: "The fluid's part, the hydrostatic one removed, mean over the last two seconds.".into(),
+        body: Body::Curves {
+            x: Axis::linear("phase", "deg"),
+            y: Axis::linear("pressure", "Pa"),
+            curves: [20, 40, 60, 80].map(curve).to_vec(),
+        },
+    }
 }
 
 #[cfg(test)]
@@ -123,6 +236,14 @@ mod tests {
         let valley: Vec<f64> = (0..10).map(|k| (f64::from(k) - 4.5).abs()).collect();
         // Outer two 4.5, 3.5; middle 1.5, 0.5, 0.5, 1.5.
         assert!((lower_pile(&valley) - 3.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_step_back_ends_a_monotonic_part() {
+        let d = DIAMETER;
+        assert!((monotonic(&[0.0, d, 2.0 * d, 1.95 * d, 3.0 * d]) - 1.0).abs() < 1e-14);
+        // Three of five: down, then up.
+        assert!((monotonic(&[2.0 * d, d, 0.0, d, 2.0 * d]) - 0.6).abs() < 1e-14);
     }
 
     #[test]

@@ -43,7 +43,7 @@ pub struct Computed {
     pub name: String,
     /// Its value in the unit given there.
     pub value: f64,
-    /// Its standard error, if it is a mean over several runs.
+    /// Its standard error, if it is known.
     pub error: Option<f64>,
 }
 
@@ -52,6 +52,12 @@ impl Computed {
     #[must_use]
     pub fn new(name: impl Into<String>, value: f64) -> Self {
         Self { name: name.into(), value, error: None }
+    }
+
+    /// A result whose standard error is known.
+    #[must_use]
+    pub fn with_error(name: impl Into<String>, value: f64, error: f64) -> Self {
+        Self { name: name.into(), value, error: Some(error) }
     }
 
     /// The mean of runs that differ by their seed, with its standard error.

@@ -1,6 +1,6 @@
 //! The displacement field J and its strength.
 
-use super::{AXES, Faults, Observe, Sampling, Selection, Setting, plane_axes};
+use super::{AXES, Faults, Observe, Sampling, Selection, Setting, few_enough, plane_axes};
 use crate::accumulate::{Batched, Estimate};
 use crate::view::View;
 use crate::zones::{Direction, Grid};
@@ -77,6 +77,7 @@ impl Observe for Convection {
         }
         let size = values.number_opt("size").unwrap_or(2.0 * setting.mean_diameter);
         let grid = Grid::new(setting.cell, plane.map(|a| Direction::across(setting.cell, a, size)).to_vec());
+        few_enough(grid.len())?;
         let shuffles = values.integer("shuffles") as usize;
         let width = 2 * grid.len();
         Ok(Self {

@@ -1,6 +1,6 @@
 //! Vector fields of grains, fluid and their mixture at equal phase.
 
-use super::{AXES, Faults, Observe, Selection, Setting, plane_axes};
+use super::{AXES, Faults, Observe, Selection, Setting, few_enough, plane_axes};
 use crate::accumulate::Estimate;
 use crate::nodes::Nodes;
 use crate::phase::PhaseAverage;
@@ -73,6 +73,7 @@ impl Observe for FlowField {
         }
         let size = values.number_opt("size").unwrap_or(1.5 * setting.mean_diameter);
         let grid = Grid::new(setting.cell, plane.map(|a| Direction::across(setting.cell, a, size)).to_vec());
+        few_enough(grid.len())?;
         let phases = setting.sampling.per_cycle.unwrap_or(1) as usize;
         let numbers = phases * BATCHES * SUMS * grid.len();
         if numbers > 50_000_000 {

@@ -1,6 +1,6 @@
 //! How the floor's motion goes up through the bed.
 
-use super::{AXES, Faults, Observe, Selection, Setting};
+use super::{AXES, Faults, Observe, Selection, Setting, few_enough};
 use crate::stats::correlation::{cross, peak};
 use crate::stats::spectrum::Welch;
 use crate::view::View;
@@ -66,6 +66,7 @@ impl Observe for Layers {
     fn from_values(values: &Values, setting: &Setting) -> Result<Self, Faults> {
         let size = values.number_opt("size").unwrap_or(setting.mean_diameter);
         let layers = Direction { periodic: false, ..Direction::across(setting.cell, 2, size) };
+        few_enough(layers.count)?;
         let Some(frequency) = setting.frequency else {
             return Err(vec![(
                 "what".into(),

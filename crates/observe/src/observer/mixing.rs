@@ -1,6 +1,6 @@
 //! How well two kinds of grains are mixed.
 
-use super::{Faults, Observe, Selection, Setting};
+use super::{Faults, Observe, Selection, Setting, few_enough};
 use crate::height;
 use crate::view::View;
 use crate::zones::{Direction, Grid};
@@ -51,6 +51,7 @@ impl Observe for Mixing {
         let size = values.number_opt("size").unwrap_or(3.0 * setting.mean_diameter);
         let axes = (0..3).filter(|&a| setting.cell.flat_axis() != Some(a));
         let grid = Grid::new(setting.cell, axes.map(|a| Direction::across(setting.cell, a, size)).collect());
+        few_enough(grid.len())?;
         Ok(Self {
             of,
             by_layer: of == Selection::All,

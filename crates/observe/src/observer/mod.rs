@@ -192,7 +192,20 @@ pub(crate) fn columns_across(values: &Values, setting: &Setting) -> Result<Direc
         return Err(vec![("across".into(), format!("the cell has no extent along {}", AXES[axis]))]);
     }
     let size = values.number_opt("size").unwrap_or(2.0 * setting.mean_diameter);
-    Ok(Direction::across(setting.cell, axis, size))
+    let columns = Direction::across(setting.cell, axis, size);
+    few_enough(columns.count)?;
+    Ok(columns)
+}
+
+/// More zones than this would take hundreds of megabytes of sums.
+const MOST_ZONES: usize = 200_000;
+
+/// Refuses a `size` that makes too many zones.
+pub(crate) fn few_enough(zones: usize) -> Result<(), Faults> {
+    if zones <= MOST_ZONES {
+        return Ok(());
+    }
+    Err(vec![("size".into(), format!("{zones} zones are too many (at most {MOST_ZONES})"))])
 }
 
 /// Letters of the axes.

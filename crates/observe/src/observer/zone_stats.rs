@@ -1,6 +1,6 @@
 //! What profiles and fields share: sums over zones with their errors.
 
-use super::{Faults, Selection, Setting};
+use super::{Faults, Selection, Setting, few_enough};
 use crate::accumulate::{Batched, Estimate};
 use crate::view::View;
 use crate::zones::Zones;
@@ -26,8 +26,6 @@ pub const WEIGHT: Key = Key::default(
     "Where a grain counts: in every zone by the fraction of its volume there, or as a whole in the zone of its centre.",
 );
 
-/// More zones than this would take hundreds of megabytes of sums.
-const MOST: usize = 200_000;
 /// From so many zones on, errors have to come from fewer batches.
 const MANY: usize = 10_000;
 
@@ -45,10 +43,7 @@ pub struct ZoneStats {
 impl ZoneStats {
     /// Reads what both observers have in common.
     pub fn new(values: &Values, setting: &Setting, zones: Zones) -> Result<Self, Faults> {
-        if zones.len() > MOST {
-            let message = format!("{} zones are too many (at most {MOST})", zones.len());
-            return Err(vec![("size".into(), message)]);
-        }
+        few_enough(zones.len())?;
         let frame = if values.text("frame") == "floor" { Frame::Floor } else { Frame::Cell };
         Ok(Self {
             of: Selection::read(values, setting)?,

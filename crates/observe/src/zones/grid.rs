@@ -125,7 +125,7 @@ impl Grid {
     /// Number of zones.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.directions.iter().map(|d| d.count).product()
+        self.directions.iter().fold(1, |n, d| n.saturating_mul(d.count))
     }
 
     /// Never true: every direction has a zone.

@@ -41,7 +41,7 @@ impl Rings {
     /// Number of zones.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.count * self.height.count
+        self.count.saturating_mul(self.height.count)
     }
 
     /// Never true.
