@@ -250,7 +250,7 @@ fn torque(plan: Plan, points: usize, re: f64) -> f64 {
 
 /// A sphere released at rest: its acceleration at times short against d²/nu, drawn to time zero along √t.
 fn release(points: &[usize]) {
-    let ratios = [0.5, 0.6, 0.7, 0.9, 1.1, 1.5, 2.5];
+    let ratios = [0.1, 0.3, 0.5, 0.7, 0.9, 1.1, 1.5, 2.5];
     head(
         "Acceleration of a released sphere, against (rho_g - rho) g/(rho_g + rho/2), %",
         &ratios.map(|r| format!("density ratio {r}")),

@@ -5,7 +5,7 @@ use crate::load::{Held, Load, hydrostatic_axes};
 use crate::resolved::lubrication::Films;
 use crate::resolved::sweep::Tally;
 use crate::resolved::template::{Cover, Felt, exchanged};
-use crate::resolved::{Enclosed, Forcing, Springs, TracerWork, forcing};
+use crate::resolved::{Enclosed, Forcing, Springs, TracerWork, forcing, tracers};
 use crate::spec::{CouplingSpec, Method, Resolved};
 use crate::state::{CouplingState, Exchange};
 use crate::still::Still;
@@ -42,6 +42,8 @@ struct ResolvedWork {
     given: Vec<Tally>,
     total: Tally,
     cell_volume: f64,
+    /// Distance between tracers, m.
+    spacing: f64,
 }
 
 #[derive(Debug)]
@@ -199,6 +201,7 @@ impl ResolvedWork {
             given: vec![Tally::default(); n],
             total: Tally::default(),
             cell_volume: grid.cell_volume(),
+            spacing: tracers::spacing(grid),
         }
     }
 
@@ -288,9 +291,13 @@ impl ResolvedWork {
                     let mass = spec.density * spec.body.volume(grains.radius[k]);
                     let after = Enclosed::of(&work.of_grain[k], mass);
                     let before = std::mem::replace(&mut state.enclosed[k], after);
-                    state.loads[k] = forcing::load(&self.given[k], &before, &after, dt);
+                    let load = forcing::load(&self.given[k], &before, &after, dt);
+                    let share = forcing::following(grains.mass[k] / mass, grains.radius[k] / self.spacing);
+                    let mut followed = state.loads[k] * (1.0 - share);
+                    followed += load * share;
+                    state.loads[k] = followed;
                     let taken_up = (after.momentum - before.momentum) / dt;
-                    state.exchange.on_grains += state.loads[k].force - taken_up;
+                    state.exchange.on_grains += load.force - taken_up;
                 }
             }
             Holder::Cover { cover, felt, .. } => {

@@ -1,6 +1,6 @@
 //! The start-up sheet: what the coupling's numbers mean, and what cannot work.
 
-use crate::resolved::{Inertia, Springs, Templates, leak};
+use crate::resolved::{Inertia, Springs, Templates, forcing, leak};
 use crate::spec::{CouplingSpec, Method, Resolved};
 use brazilnut_fluid::Grid;
 
@@ -39,15 +39,6 @@ pub struct Refusal {
     pub cause: String,
     /// What to do.
     pub remedy: String,
-}
-
-/// Density ratio from which direct forcing bears a body of `points` per radius: the explicit force carries the added
-/// mass of the body that the kernel smears.
-///
-/// On the safe side of what was found: stable at 0.9 with three points and at 0.6 with four and five, unstable at 0.7
-/// with three (`docs/resolved-accuracy.md`).
-fn lightest_forced(points: f64) -> f64 {
-    0.5 * (1.0 + 2.4 / points)
 }
 
 /// From this ratio to the grain's mass on an explicit exchange of added mass overshoots.
@@ -150,15 +141,14 @@ impl Sheet {
                 Method::Forcing(f) => {
                     self.line(format!("tracers of {}", p.name), tracers.to_string());
                     self.line("sweeps", f.sweeps.to_string());
-                    let (ratio, least) = (p.density / spec.density, lightest_forced(p.radius / h));
-                    if ratio < least {
-                        self.refuse(
-                            format!("{} are too light for `direct-forcing`", p.name),
+                    let share = forcing::following(p.density / spec.density, p.radius / h);
+                    if share < 1.0 {
+                        self.line(
+                            format!("virtual mass of {}", p.name),
                             format!(
-                                "{ratio:.3} of the fluid's density; it is stable from {least:.3} on at {:.1} points per radius",
-                                p.radius / h
+                                "{:.3} of their own: they are lighter than their added mass",
+                                1.0 / share - 1.0
                             ),
-                            "take more `points_per_radius`, or heavier grains",
                         );
                     }
                 }
@@ -272,8 +262,16 @@ mod tests {
         assert_eq!(sheet(springs(0.5), 1000.0, 1e-5).refusals.len(), 1, "no template mass");
         assert_eq!(sheet(springs(1.5), 1010.0, 1e-5).refusals.len(), 1, "barely heavy");
         assert_eq!(sheet(Method::Template, 1000.0, 1e-5).refusals.len(), 1);
-        assert!(sheet(Method::Forcing(Forcing { sweeps: 3 }), 910.0, 1e-5).refusals.is_empty());
-        assert_eq!(sheet(Method::Forcing(Forcing { sweeps: 3 }), 700.0, 1e-5).refusals.len(), 1);
+    }
+
+    #[test]
+    fn forced_bodies_lighter_than_their_added_mass_carry_a_virtual_one() {
+        let said = |density: f64| {
+            let s = sheet(Method::Forcing(Forcing { sweeps: 3 }), density, 1e-5);
+            assert!(s.refusals.is_empty(), "{s:?}");
+            s.lines.iter().any(|(k, _)| k.contains("virtual mass"))
+        };
+        assert!(said(700.0) && !said(910.0));
     }
 
     #[test]
