@@ -69,7 +69,7 @@ impl<'a> Nodes<'a> {
 }
 
 /// Distance of neighbouring cells along `axis`, m.
-fn spacing(flow: &dyn FlowView, axis: usize, size: f64) -> f64 {
+pub fn spacing(flow: &dyn FlowView, axis: usize, size: f64) -> f64 {
     if flow.shape()[axis] < 2 {
         return size;
     }

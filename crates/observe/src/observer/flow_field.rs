@@ -2,7 +2,7 @@
 
 use super::{AXES, Faults, Observe, Selection, Setting, few_enough, plane_axes};
 use crate::accumulate::Estimate;
-use crate::nodes::Nodes;
+use crate::nodes::{Nodes, spacing};
 use crate::phase::PhaseAverage;
 use crate::view::{Needs, View};
 use crate::zones::{Direction, Grid};
@@ -39,7 +39,7 @@ impl Observe for FlowField {
         name: "flow-field",
         summary: "Phase-averaged vector fields of grains, fluid and their mixture in a plane.",
         formula: "cells of edge `size` in the plane, over the whole depth; velocities in the frame of the cell (m/s), averaged over cycles at equal phase\n\
-                  averaged couplings: grains u = sum V^ u_i/sum V^ over the parts V^ of grains inside; fluid: mean of v over the grid cells with centres inside; \
+                  averaged couplings: grains u = sum V^ u_i/sum V^ over the parts V^ of grains inside; fluid: mean of v over the grid cells that reach inside, by what they cover; \
                   mixture w = phi v + (1 - phi) u (Clément eq. 4.7), phi the fluid fraction of each grid cell\n\
                   resolved couplings: the grid cells inside grains count as grains, the others as fluid, each by the velocity of the flow there; mixture: all of them",
         source: "Clément 2009, 4.4, eq. 4.7, Figs 4.6-4.9, Table 4.4; Lan 1994, Fig. A5.11",
@@ -157,19 +157,22 @@ impl FlowField {
         }
     }
 
-    /// Fluid and mixture of an averaged coupling.
+    /// Fluid and mixture of an averaged coupling: its grid is coarse, and each of its cells belongs to all that it meets.
     fn averaged(&self, view: &View, now: &mut [f64]) {
         let Some(flow) = view.fluid.and_then(|f| f.flow) else { return };
+        let half = 0.5 * Vec3::from_array([0, 1, 2].map(|a| spacing(flow, a, view.cell.size[a])));
         Nodes::new(view, flow).each(|cell, at, _| {
-            let zone = &mut now[SUMS * self.grid.find(at)..];
             let (v, phi) = (flow.cell_velocity(cell), flow.porosity(at));
-            let mut u = Vec3::ZERO;
-            if zone[0] > 0.0 {
-                u[self.plane[0]] = zone[1] / zone[0];
-                u[self.plane[1]] = zone[2] / zone[0];
-            }
-            self.put(zone, 1, 1.0, v);
-            self.put(zone, 2, 1.0, phi * v + (1.0 - phi) * u);
+            self.grid.spread_box(at - half, at + half, |zone, part| {
+                let zone = &mut now[SUMS * zone..];
+                let mut u = Vec3::ZERO;
+                if zone[0] > 0.0 {
+                    u[self.plane[0]] = zone[1] / zone[0];
+                    u[self.plane[1]] = zone[2] / zone[0];
+                }
+                self.put(zone, 1, part, v);
+                self.put(zone, 2, part, phi * v + (1.0 - phi) * u);
+            });
         });
     }
 

@@ -98,6 +98,17 @@ impl Direction {
     fn index(&self, k: i64) -> usize {
         k.rem_euclid(self.count as i64) as usize
     }
+
+    /// Calls `each` with every zone that `low..high` (m) meets inside the ends, and the part of the zone that it covers.
+    fn covered(&self, low: f64, high: f64, mut each: impl FnMut(usize, f64)) {
+        let (a, b) = ((low - self.origin) / self.width, (high - self.origin) / self.width);
+        for k in a.floor() as i64..b.ceil() as i64 {
+            let part = b.min(k as f64 + 1.0) - a.max(k as f64);
+            if part > NOTHING && (self.periodic || (0..self.count as i64).contains(&k)) {
+                each(self.index(k), part);
+            }
+        }
+    }
 }
 
 /// A regular grid of zones in one, two or three directions; the first runs fastest.
@@ -120,6 +131,15 @@ impl Grid {
         let gridded = |axis: usize| directions.iter().find(|d| d.axis == axis);
         let zone_volume = (0..3).map(|a| gridded(a).map_or(cell.size[a], |d| d.width)).product();
         Self { directions, body: Body::of(cell), zone_volume }
+    }
+
+    /// Calls `each` with every zone that the box `low..high` (m) meets, and the part of the zone that it covers in the
+    /// grid's first two directions, which must be all it has.
+    pub fn spread_box(&self, low: Vec3, high: Vec3, mut each: impl FnMut(usize, f64)) {
+        let [first, second] = &self.directions[..] else { unreachable!("a grid in a plane") };
+        second.covered(low[second.axis], high[second.axis], |j, q| {
+            first.covered(low[first.axis], high[first.axis], |i, p| each(i + first.count * j, p * q));
+        });
     }
 
     /// Number of zones.
@@ -306,6 +326,19 @@ mod tests {
             Grid::new(&c, vec![d(0, 0.09), d(2, 0.3)]),
             Grid::new(&c, vec![d(0, 0.2), d(1, 0.13), d(2, 0.05)]),
         ]
+    }
+
+    #[test]
+    fn a_box_covers_parts_that_add_up_to_it() {
+        let cell = Cell { size: Vec3::new(2.0, 1.0, 3.0), sides: [Side::Periodic, Side::Walls, Side::Walls] };
+        let grid = Grid::new(&cell, vec![Direction::across(&cell, 0, 0.5), Direction::across(&cell, 2, 0.6)]);
+        let mut parts = vec![0.0; grid.len()];
+        // From 1.7 around the end to 2.3, which is 0.3; 0.5 to 1.3 upwards: zones of 0.6.
+        grid.spread_box(Vec3::new(1.7, 0.0, 0.5), Vec3::new(2.3, 1.0, 1.3), |zone, part| parts[zone] += part);
+        let sum: f64 = parts.iter().sum();
+        assert!((sum - 0.6 * 0.8 / (0.5 * 0.6)).abs() < 1e-12, "{parts:?}");
+        assert!((parts[4] - 0.6).abs() < 1e-12 && (parts[7] - 0.6).abs() < 1e-12, "{parts:?}");
+        assert!((parts[0] - 0.6 * 0.1 / 0.6).abs() < 1e-12 && parts[5] == 0.0, "{parts:?}");
     }
 
     #[test]
