@@ -44,8 +44,7 @@ pub struct ContactView {
 impl Dem {
     /// Calls `see` with every touching contact, each pair once. Lists and memory stay as they are.
     pub fn contacts(&self, state: &DemState, mut see: impl FnMut(&ContactView)) {
-        let mut walls = self.walls.clone();
-        walls.move_to(state.time);
+        let walls = self.walls.at(state.time);
         for lists in &state.blocks {
             for pairs in [&lists.inside, &lists.first, &lists.big] {
                 for p in 0..pairs.len {

@@ -2,6 +2,7 @@
 
 use super::{Arrangement, WallShape, WallSpec};
 use brazilnut_base::{Cell, Vec3};
+use std::borrow::Cow;
 
 /// The walls at one instant.
 #[derive(Clone, Debug)]
@@ -61,6 +62,17 @@ impl Walls {
             self.displacement[k] = m.displacement;
             self.velocity[k] = m.velocity;
         }
+    }
+
+    /// The walls where they are at `time` (s): themselves if they were moved there last.
+    #[must_use]
+    pub fn at(&self, time: f64) -> Cow<'_, Self> {
+        if self.time == Some(time) {
+            return Cow::Borrowed(self);
+        }
+        let mut moved = self.clone();
+        moved.move_to(time);
+        Cow::Owned(moved)
     }
 
     /// Velocity of wall `k`, m/s.
