@@ -2,7 +2,7 @@
 
 use crate::layers::{Bed, GRAVITY, Layers, figures};
 use crate::repeats::Repeats;
-use crate::runs::first;
+use crate::runs::{SEEDS, first};
 use crate::study::{Computed, Ran, Request};
 use brazilnut_base::Table;
 use brazilnut_base::figure::{Axis, Body, Curve, Figure, Style};
@@ -12,8 +12,15 @@ use std::f64::consts::TAU;
 const CASE: (&str, &str) =
     ("studies/lan-expansion/case.toml", include_str!("../../../studies/lan-expansion/case.toml"));
 
-/// Two of the nine peak accelerations over gravity of Lan Table 4.3: below and above the threshold of expansion.
-const GAMMAS: [f64; 2] = [1.2, 3.15];
+/// Peak accelerations over gravity of Lan Table 4.3.
+const GAMMAS: [f64; 9] = [1.0, 1.2, 2.0, 2.35, 2.8, 3.15, 3.6, 4.1, 30.0];
+/// Those of the short form: below and above the threshold of expansion.
+const QUICK: [f64; 2] = [1.2, 3.15];
+
+/// What the full form lays over the case: a longer average.
+const LONGER: [&str; 1] = ["time.end=5 s"];
+/// What the fastest floor needs: stiffer springs, whose overlap is that of the others at 3.15 g, and room to fly.
+const FASTEST: [&str; 2] = ["contact.stiffness=2e4 N/m", "cell.size=[\"15 mm\", \"15 mm\", \"900 mm\"]"];
 
 pub const DIAMETER: f64 = 0.003;
 const AMPLITUDE: f64 = 0.005;
@@ -34,12 +41,19 @@ const TABLES: [&str; 3] = ["bed-means", "collisions-means", "profile-cell"];
 impl Run {
     fn new(gamma: f64, request: &Request) -> Result<Self, Failure> {
         let frequency = (gamma * GRAVITY / AMPLITUDE).sqrt() / TAU;
-        let overrides = [format!("shaking.frequency={frequency:.5} Hz")];
+        let mut overrides = vec![format!("shaking.frequency={frequency:.5} Hz")];
+        if !request.quick {
+            overrides.extend(LONGER.map(String::from));
+        }
+        if gamma == 30.0 {
+            overrides.extend(FASTEST.map(String::from));
+        }
         // The studies of this table share their runs, unless these are short ones.
         let place =
             if request.quick { request.out.clone() } else { request.out.with_file_name("lan-expansion") };
         let folder = place.join(format!("gamma-{gamma}"));
-        let runs = Repeats::new(CASE, &overrides, &folder, 1, !request.quick)?;
+        let seeds = if request.quick { 1 } else { SEEDS.len() as u64 };
+        let runs = Repeats::new(CASE, &overrides, &folder, seeds, !request.quick)?;
         let [a, b, c] = TABLES.map(|t| runs.tables(t));
         let bed = Bed::new(format!("gamma {gamma}"), &runs, DIAMETER)?;
         Ok(Self { gamma, bed, means: [a?, b?, c?] })
@@ -50,7 +64,8 @@ impl Run {
     /// # Errors
     /// Whatever a run fails with.
     pub fn all(request: &Request) -> Result<Vec<Self>, Failure> {
-        GAMMAS.iter().map(|&g| Self::new(g, request)).collect()
+        let gammas: &[f64] = if request.quick { &QUICK } else { &GAMMAS };
+        gammas.iter().map(|&g| Self::new(g, request)).collect()
     }
 
     fn values(&self, table: usize, name: &str) -> Vec<f64> {
@@ -105,19 +120,47 @@ pub fn plot(title: &str, caption: &str, y: Axis, curves: Vec<Curve>) -> Figure {
     Figure { title: title.into(), caption: caption.into(), body }
 }
 
-/// The quantities and plots; the short form is the full one.
+/// The quantities and plots; the short form has two accelerations and one seed.
 ///
 /// # Errors
 /// Whatever a run fails with.
 pub fn run(request: &Request) -> Result<Ran, Failure> {
     let runs = Run::all(request)?;
     let fluid = &at(&runs, 3.15).bed;
-    let computed = vec![
-        over("height at gamma 3.15 over that at 1.2", &at(&runs, 3.15).heights(), &at(&runs, 1.2).heights()),
+    let height = |gamma: f64| at(&runs, gamma).heights();
+    let mut computed = vec![
+        over("height at gamma 3.15 over that at 1.2", &height(3.15), &height(1.2)),
         fluid.find("W at the top over the least", |l| l.top() / l.w[l.coldest()]),
         fluid.find("layers from the least W to the densest", Layers::coldest_to_densest),
     ];
+    if !request.quick {
+        let fast = &at(&runs, 30.0).bed;
+        let densest = |gamma: f64| -> Vec<f64> {
+            at(&runs, gamma).bed.seeds.iter().map(|l| l.height[l.densest()] + FLOOR).collect()
+        };
+        computed.extend([
+            over("height at gamma 1.2 over that at 1", &height(1.2), &height(1.0)),
+            over("height at gamma 2 over that at 1.2", &height(2.0), &height(1.2)),
+            over("height at gamma 4.1 over that at 2.8", &height(4.1), &height(2.8)),
+            over("height at gamma 30 over that at 3.6", &height(30.0), &height(3.6)),
+            fast.find("W at the floor over the largest", |l| {
+                l.floor() / l.full().into_iter().map(|k| l.w[k]).fold(0.0, f64::max)
+            }),
+            over("height of the densest layer at gamma 30 over that at 1.2", &densest(30.0), &densest(1.2)),
+            at(&runs, 2.0).bed.find("mass below five diameters", below_five),
+            fast.find("mass below five diameters", below_five),
+        ]);
+    }
     Ok(Ran { computed, figures: plots(&runs) })
+}
+
+/// The floor's lowest place below its mean one, in diameters: what is said of heights counts from there.
+const FLOOR: f64 = AMPLITUDE / DIAMETER;
+
+/// Share of the mass below five diameters over the floor's mean place.
+fn below_five(l: &Layers) -> f64 {
+    let k = l.height.partition_point(|h| *h < 5.0);
+    l.below.get(k.saturating_sub(1)).copied().unwrap_or(f64::NAN)
 }
 
 fn plots(runs: &[Run]) -> Vec<Figure> {

@@ -2,7 +2,7 @@
 
 use crate::lan_expansion::{DIAMETER, Run, at, curve, over, plot};
 use crate::layers::{GRAVITY, Layers};
-use crate::study::{Ran, Request};
+use crate::study::{Computed, Ran, Request};
 use brazilnut_base::figure::{Axis, Style};
 use brazilnut_runner::Failure;
 use std::f64::consts::PI;
@@ -21,7 +21,7 @@ fn kinetic(l: &Layers) -> f64 {
     sum / mass
 }
 
-/// The quantities and plots, from the runs of `lan-expansion`; the short form is the full one.
+/// The quantities and plots, from the runs of `lan-expansion`.
 ///
 /// # Errors
 /// Whatever a run fails with.
@@ -29,10 +29,35 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
     let runs = Run::all(request)?;
     let temperature = |g: f64| at(&runs, g).temperatures();
     let rate = |g: f64| at(&runs, g).rates();
-    let computed = vec![
+    let mut computed = vec![
         over("temperature at gamma 3.15 over that at 1.2", &temperature(3.15), &temperature(1.2)),
         over("collisions at gamma 3.15 over those at 1.2", &rate(3.15), &rate(1.2)),
     ];
+    if !request.quick {
+        // Slopes on log axes, of the means over the seeds.
+        let mean = |of: Vec<f64>| of.iter().sum::<f64>() / of.len() as f64;
+        let slope = |value: &dyn Fn(f64) -> Vec<f64>, a: f64, b: f64| {
+            (mean(value(b)) / mean(value(a))).ln() / (b / a).ln()
+        };
+        let steps = runs.windows(2).map(|w| (w[0].gamma, w[1].gamma));
+        let least_rise = steps.map(|(a, b)| mean(temperature(b)) / mean(temperature(a)));
+        computed.extend([
+            over("temperature at gamma 2 over that at 1.2", &temperature(2.0), &temperature(1.2)),
+            Computed::new(
+                "least rise of the temperature from one gamma to the next",
+                least_rise.fold(f64::INFINITY, f64::min),
+            ),
+            Computed::new(
+                "slope of the temperature beyond gamma 4.1 over that from 2 to 4.1",
+                slope(&temperature, 4.1, 30.0) / slope(&temperature, 2.0, 4.1),
+            ),
+            over("collisions at gamma 2 over those at 1.2", &rate(2.0), &rate(1.2)),
+            Computed::new(
+                "slope of the collisions beyond gamma 4.1 over that from 1.2 to 2",
+                slope(&rate, 4.1, 30.0) / slope(&rate, 1.2, 2.0),
+            ),
+        ]);
+    }
     let theory = |r: &Run| r.bed.seeds.iter().map(kinetic).collect();
     let figures = vec![
         plot(
