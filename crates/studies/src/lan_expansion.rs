@@ -136,7 +136,7 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
     if !request.quick {
         let fast = &at(&runs, 30.0).bed;
         let densest = |gamma: f64| -> Vec<f64> {
-            at(&runs, gamma).bed.seeds.iter().map(|l| l.height[l.densest()] + FLOOR).collect()
+            at(&runs, gamma).bed.seeds.iter().map(|l| l.height[l.densest()]).collect()
         };
         computed.extend([
             over("height at gamma 1.2 over that at 1", &height(1.2), &height(1.0)),
@@ -153,9 +153,6 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
     }
     Ok(Ran { computed, figures: plots(&runs) })
 }
-
-/// The floor's lowest place below its mean one, in diameters: what is said of heights counts from there.
-const FLOOR: f64 = AMPLITUDE / DIAMETER;
 
 /// Share of the mass below five diameters over the floor's mean place.
 fn below_five(l: &Layers) -> f64 {
