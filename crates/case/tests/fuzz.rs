@@ -2,10 +2,47 @@
 //!
 //! `BRAZILNUT_FUZZ=1000000 cargo test --release -p brazilnut-case --test fuzz` runs a million.
 
+#![allow(unsafe_code, reason = "an allocator that counts can only be written as one")]
+
 use brazilnut_base::random;
 use brazilnut_case::{Case, build, check, resolved};
 use rand::{Rng, RngExt};
+use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+/// The allocator of the system, counting.
+struct Counting;
+
+static LIVE: AtomicUsize = AtomicUsize::new(0);
+static PEAK: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: every call is handed on to the system's allocator with its arguments unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        let live = LIVE.fetch_add(layout.size(), Relaxed) + layout.size();
+        PEAK.fetch_max(live, Relaxed);
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        let live = LIVE.fetch_add(layout.size(), Relaxed) + layout.size();
+        PEAK.fetch_max(live, Relaxed);
+        // Not touched until it is used, so that a huge request can be reported.
+        unsafe { System.alloc_zeroed(layout) }
+    }
+
+    unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
+        LIVE.fetch_sub(layout.size(), Relaxed);
+        unsafe { System.dealloc(at, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Most memory that any input may take, bytes.
+const MOST: usize = 1 << 30;
 
 const GOOD: &[&str] = &[
     include_str!("good/dry.toml"),
@@ -142,13 +179,14 @@ fn no_case_file_makes_the_reader_panic() {
     let n: usize = std::env::var("BRAZILNUT_FUZZ").ok().and_then(|n| n.parse().ok()).unwrap_or(2_000);
     let seed: u64 = std::env::var("BRAZILNUT_FUZZ_SEED").ok().and_then(|n| n.parse().ok()).unwrap_or(7);
     let mut rng = random::stream(seed, "fuzz", 0);
-    let (mut accepted, mut longest) = (0_usize, 0.0_f64);
+    let (mut accepted, mut longest, mut largest) = (0_usize, 0.0_f64, 0);
     for k in 0..n {
         let mut text = GOOD[below(&mut rng, GOOD.len())].to_string();
         for _ in 0..=below(&mut rng, 5) {
             damage(&mut rng, &mut text);
         }
         let start = std::time::Instant::now();
+        PEAK.store(LIVE.load(Relaxed), Relaxed);
         let outcome =
             std::panic::catch_unwind(|| match Case::parse(&text, "fuzz.toml", PathBuf::new(), &[]) {
                 Ok(case) => {
@@ -165,12 +203,14 @@ fn no_case_file_makes_the_reader_panic() {
                 }
             });
         longest = longest.max(start.elapsed().as_secs_f64());
+        largest = largest.max(PEAK.load(Relaxed));
+        assert!(largest < MOST, "input {k} of seed {seed} took {largest} bytes:\n{text}");
         match outcome {
             Ok(ok) => accepted += usize::from(ok),
             Err(_) => panic!("input {k} of seed {seed}:\n{text}"),
         }
     }
-    println!("{n} inputs, {accepted} accepted, the slowest took {longest:.3} s");
+    println!("{n} inputs, {accepted} accepted, the slowest took {longest:.3} s, the largest {largest} bytes");
     // Most damage is seen; some (a comment, a blank) is harmless: both roads must have been walked.
     assert!(accepted > 0 && accepted < n);
 }

@@ -197,6 +197,10 @@ fn kinetic_energy(view: &View) -> f64 {
     (0..g.len()).map(|k| 0.5 * g.mass[k] * g.velocity[k].length_squared()).sum()
 }
 
+/// Samples of a cycle above which no phase has an average of its own: one of every step of a long cycle would take
+/// gigabytes.
+const MOST_PHASES: u64 = 8192;
+
 /// What a schedule means in time and cycles.
 fn sampling(every: Every, schedule: Schedule, setting: &Setting) -> Sampling {
     if every == Every::End {
@@ -206,7 +210,7 @@ fn sampling(every: Every, schedule: Schedule, setting: &Setting) -> Sampling {
     let spc = setting.steps_per_cycle;
     Sampling {
         interval: schedule.period as f64 * setting.dt,
-        per_cycle: spc.and_then(|s| whole(s, schedule.period)),
+        per_cycle: spc.and_then(|s| whole(s, schedule.period)).filter(|&n| n <= MOST_PHASES),
         cycles: spc.and_then(|s| whole(schedule.period, s)),
         phase: spc.map_or(0.0, |s| (schedule.offset % schedule.period.min(s)) as f64 / s as f64),
     }
