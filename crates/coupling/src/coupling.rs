@@ -44,6 +44,8 @@ struct ResolvedWork {
     cell_volume: f64,
     /// Distance between tracers, m.
     spacing: f64,
+    /// Loads of the step before.
+    loads_before: Vec<Load>,
 }
 
 #[derive(Debug)]
@@ -202,6 +204,7 @@ impl ResolvedWork {
             total: Tally::default(),
             cell_volume: grid.cell_volume(),
             spacing: tracers::spacing(grid),
+            loads_before: vec![Load::default(); n],
         }
     }
 
@@ -287,17 +290,14 @@ impl ResolvedWork {
             }
             Holder::Forcing { work, .. } => {
                 state.leak.book(&work.look(grains, &flow.velocity));
+                self.loads_before.copy_from_slice(&state.loads);
                 for k in 0..grains.len() {
                     let mass = spec.density * spec.body.volume(grains.radius[k]);
                     let after = Enclosed::of(&work.of_grain[k], mass);
                     let before = std::mem::replace(&mut state.enclosed[k], after);
-                    let load = forcing::load(&self.given[k], &before, &after, dt);
-                    let share = forcing::following(grains.mass[k] / mass, grains.radius[k] / self.spacing);
-                    let mut followed = state.loads[k] * (1.0 - share);
-                    followed += load * share;
-                    state.loads[k] = followed;
+                    state.loads[k] = forcing::load(&self.given[k], &before, &after, dt);
                     let taken_up = (after.momentum - before.momentum) / dt;
-                    state.exchange.on_grains += load.force - taken_up;
+                    state.exchange.on_grains += state.loads[k].force - taken_up;
                 }
             }
             Holder::Cover { cover, felt, .. } => {
@@ -318,6 +318,21 @@ impl ResolvedWork {
         }
         if let Some(law) = &spec.lubrication {
             self.films.add(law, spec.viscosity, cell, grains, dt, &mut state.loads);
+        }
+        if let Holder::Forcing { .. } = self.holder {
+            self.follow(spec, grains, &mut state.loads);
+        }
+    }
+
+    /// Lets the loads of light bodies, films included, follow the new ones in part.
+    fn follow(&self, spec: &Resolved, grains: &Grains, loads: &mut [Load]) {
+        for (k, load) in loads.iter_mut().enumerate() {
+            let displaced = spec.density * spec.body.volume(grains.radius[k]);
+            let share = forcing::following(grains.mass[k] / displaced, grains.radius[k] / self.spacing);
+            if share < 1.0 {
+                *load = *load * share;
+                *load += self.loads_before[k] * (1.0 - share);
+            }
         }
     }
 }

@@ -21,7 +21,7 @@ pub const COMMON: &[Key] = &[
         "every",
         Kind::Every,
         "\"cycle\"",
-        "When: \"cycle\", \"24 per cycle\", \"5 cycles\", \"100 steps\", \"0.1 s\".",
+        "When: \"cycle\", \"24 per cycle\", \"5 cycles\", \"100 steps\", \"0.1 s\". Above 8192 samples a cycle there are no averages by phase.",
     ),
     Key::default(
         "phase",

@@ -141,12 +141,11 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
     computed.push(mean("height of the lower pile at a wall, at the end".into(), &|s| {
         lower_pile(&s.at(SHOWN[2])) / DIAMETER
     }));
-    for t in SHOWN {
-        computed.push(mean(format!("slope at {t} s"), &|s| slope(&s.at(t), width).abs()));
+    for (early, late) in [(SHOWN[0], SHOWN[1]), (SHOWN[1], SHOWN[2])] {
+        computed.push(mean(format!("slope at {late} s over that at {early} s"), &|s| {
+            (slope(&s.at(late), width) / slope(&s.at(early), width)).abs()
+        }));
     }
-    computed.push(mean("slope at 11 s over that at 3 s".into(), &|s| {
-        (slope(&s.at(SHOWN[2]), width) / slope(&s.at(SHOWN[0]), width)).abs()
-    }));
     computed.push(mean("part of the width that rises or falls throughout, at 11 s".into(), &|s| {
         monotonic(&s.at(SHOWN[2]))
     }));

@@ -8,7 +8,7 @@
 // which is what makes the calls sound.
 
 use super::Wide;
-use super::x86::{lanes_of_a_register, prefetch};
+use super::x86::{announce, lanes_of_a_register};
 use crate::contact::real::{Mask, Real};
 use crate::motion::Quad;
 use crate::packed::{Force, Row, Spin};
@@ -122,13 +122,7 @@ impl Wide for Avx2 {
         forces: Option<(&[Force], usize)>,
         j: &[u32],
     ) {
-        prefetch(rows, 0, j);
-        if let Some((forces, base)) = forces {
-            prefetch(forces, base, j);
-        }
-        if SPINS {
-            prefetch(spins, 0, j);
-        }
+        announce::<SPINS>(rows, spins, forces, j);
     }
 
     #[inline(always)]

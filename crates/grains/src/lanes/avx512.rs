@@ -7,7 +7,7 @@
 // exists only inside a sweep that `dispatch` entered after asking the
 // processor, which is what makes the calls sound.
 
-use super::x86::{lanes_of_a_register, prefetch};
+use super::x86::{announce, lanes_of_a_register};
 use super::{Avx2, Wide};
 use crate::contact::real::{Mask, Real};
 use crate::packed::{Force, Row, Spin};
@@ -152,13 +152,7 @@ impl Wide for Avx512 {
         forces: Option<(&[Force], usize)>,
         j: &[u32],
     ) {
-        prefetch(rows, 0, j);
-        if let Some((forces, base)) = forces {
-            prefetch(forces, base, j);
-        }
-        if SPINS {
-            prefetch(spins, 0, j);
-        }
+        announce::<SPINS>(rows, spins, forces, j);
     }
 
     #[inline(always)]

@@ -1,6 +1,8 @@
 //! What lane types of x86 registers have in common.
 #![allow(unsafe_code, reason = "intrinsics; a prefetch is harmless for any address")]
 
+use crate::packed::{Force, Row, Spin};
+
 /// A lane type of one register, with all arithmetic that is one instruction.
 macro_rules! lanes_of_a_register {
     (
@@ -108,10 +110,27 @@ pub(super) use lanes_of_a_register;
 
 /// Asks for the cache lines of the rows `j`, to be read some batches later; `base` is the row of `table[0]`.
 #[inline(always)]
-pub(super) fn prefetch<T>(table: &[T], base: usize, j: &[u32]) {
+fn prefetch<T>(table: &[T], base: usize, j: &[u32]) {
     for &j in j {
         let place = table.as_ptr().wrapping_add((j as usize).wrapping_sub(base));
         // Sound for any address: a prefetch reads nothing.
         unsafe { std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(place.cast()) };
+    }
+}
+
+/// [`super::Wide::announce`] of every lane type of x86.
+#[inline(always)]
+pub(super) fn announce<const SPINS: bool>(
+    rows: &[Row],
+    spins: &[Spin],
+    forces: Option<(&[Force], usize)>,
+    j: &[u32],
+) {
+    prefetch(rows, 0, j);
+    if let Some((forces, base)) = forces {
+        prefetch(forces, base, j);
+    }
+    if SPINS {
+        prefetch(spins, 0, j);
     }
 }
