@@ -2,13 +2,12 @@
 //! ratios: to this engine's own plain sweep, and to a peer, all run in turn. See `benches/README.md`.
 
 mod case;
-mod clock;
 
 use brazilnut_base::{Tick, vec3};
+use brazilnut_benches::{Clock, Lap, median};
 use brazilnut_grains::{Dem, DemState, Gravity, Sweep};
 use case::Case;
 use clap::Parser;
-use clock::{Clock, Lap};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -167,10 +166,4 @@ fn peer(command: &str, start: &Path, case: &Case, threads: usize) -> Result<f64,
         .last()
         .and_then(|line| line.trim().parse().ok())
         .ok_or_else(|| format!("the peer gave no rate:\n{text}{}", String::from_utf8_lossy(&output.stderr)))
-}
-
-fn median(mut x: Vec<f64>) -> f64 {
-    x.sort_by(f64::total_cmp);
-    let n = x.len();
-    if n == 0 { f64::NAN } else { 0.5 * (x[(n - 1) / 2] + x[n / 2]) }
 }

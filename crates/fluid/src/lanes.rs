@@ -49,6 +49,12 @@ impl Path {
         let _ = wanted;
         Self::Portable
     }
+
+    /// Numbers a vector.
+    #[must_use]
+    pub fn lanes(self) -> usize {
+        if self == Self::Avx512 { 8 } else { 4 }
+    }
 }
 
 /// Runs `kernel` with the instructions of `path`.
@@ -192,26 +198,20 @@ impl<const W: usize, const FUSED: bool> Lanes<W, FUSED> {
 
 /// Blocks of `W` by `W` numbers between rows and lanes.
 impl<const W: usize, const FUSED: bool> Lanes<W, FUSED> {
-    /// Columns `i..i + W` of the rows `first..first + W`, column by column.
+    /// Columns `i..i + W` of the rows `first..first + W`.
     #[inline(always)]
-    pub fn gather(self, rows: &impl Rows, first: usize, i: usize, out: &mut [f64]) {
+    pub fn gather(self, rows: &Rows<'_>, first: usize, i: usize) -> [[f64; W]; W] {
         let mut block = [[0.0; W]; W];
         for (lane, b) in block.iter_mut().enumerate() {
             *b = self.load(&rows.row(first + lane)[i..]);
         }
-        for (out, v) in out.as_chunks_mut::<W>().0.iter_mut().zip(self.transposed(block)) {
-            *out = v;
-        }
+        self.transposed(block)
     }
 
     /// Undoes [`Self::gather`].
     #[inline(always)]
-    pub fn scatter(self, rows: &mut impl Rows, first: usize, i: usize, columns: &[f64]) {
-        let mut block = [[0.0; W]; W];
-        for (b, v) in block.iter_mut().zip(columns.as_chunks::<W>().0) {
-            *b = *v;
-        }
-        for (lane, v) in self.transposed(block).into_iter().enumerate() {
+    pub fn scatter(self, rows: &mut Rows<'_>, first: usize, i: usize, columns: [[f64; W]; W]) {
+        for (lane, v) in self.transposed(columns).into_iter().enumerate() {
             self.store(&mut rows.row_mut(first + lane)[i..], v);
         }
     }
@@ -295,7 +295,6 @@ unsafe fn transpose4(a: &[f64], out: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pressure::rows::Plane;
 
     struct There;
     impl Kernel for There {
@@ -303,15 +302,14 @@ mod tests {
         fn run<const W: usize, const F: bool>(self, l: Lanes<W, F>) {
             let mut data: Vec<f64> = (0..W * 16).map(|i| i as f64).collect();
             let kept = data.clone();
-            let mut rows = Plane { data: &mut data, pitch: 16 };
-            let mut columns = vec![0.0; W * W];
-            l.gather(&rows, 0, 3, &mut columns);
+            let mut rows = Rows::of_plane(&mut data, 16);
+            let columns = l.gather(&rows, 0, 3);
             for i in 0..W {
                 for lane in 0..W {
-                    assert_eq!(columns[i * W + lane], kept[lane * 16 + 3 + i]);
+                    assert_eq!(columns[i][lane], kept[lane * 16 + 3 + i]);
                 }
             }
-            l.scatter(&mut rows, 0, 3, &columns);
+            l.scatter(&mut rows, 0, 3, columns);
             assert_eq!(data, kept);
         }
     }

@@ -90,13 +90,6 @@ impl Run {
     }
 }
 
-/// The quotient of two lists, seed by seed.
-#[must_use]
-pub fn over(name: &str, above: &[f64], below: &[f64]) -> Computed {
-    let ratios: Vec<f64> = above.iter().zip(below).map(|(a, b)| a / b).collect();
-    Computed::mean(name, &ratios)
-}
-
 /// The run at an acceleration.
 #[must_use]
 pub fn at(runs: &[Run], gamma: f64) -> &Run {
@@ -129,7 +122,7 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
     let fluid = &at(&runs, 3.15).bed;
     let height = |gamma: f64| at(&runs, gamma).heights();
     let mut computed = vec![
-        over("height at gamma 3.15 over that at 1.2", &height(3.15), &height(1.2)),
+        Computed::ratio("height at gamma 3.15 over that at 1.2", &height(3.15), &height(1.2)),
         fluid.find("W at the top over the least", |l| l.top() / l.w[l.coldest()]),
         fluid.find("layers from the least W to the densest", Layers::coldest_to_densest),
     ];
@@ -139,14 +132,18 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
             at(&runs, gamma).bed.seeds.iter().map(|l| l.height[l.densest()]).collect()
         };
         computed.extend([
-            over("height at gamma 1.2 over that at 1", &height(1.2), &height(1.0)),
-            over("height at gamma 2 over that at 1.2", &height(2.0), &height(1.2)),
-            over("height at gamma 4.1 over that at 2.8", &height(4.1), &height(2.8)),
-            over("height at gamma 30 over that at 3.6", &height(30.0), &height(3.6)),
+            Computed::ratio("height at gamma 1.2 over that at 1", &height(1.2), &height(1.0)),
+            Computed::ratio("height at gamma 2 over that at 1.2", &height(2.0), &height(1.2)),
+            Computed::ratio("height at gamma 4.1 over that at 2.8", &height(4.1), &height(2.8)),
+            Computed::ratio("height at gamma 30 over that at 3.6", &height(30.0), &height(3.6)),
             fast.find("W at the floor over the largest", |l| {
                 l.floor() / l.full().into_iter().map(|k| l.w[k]).fold(0.0, f64::max)
             }),
-            over("height of the densest layer at gamma 30 over that at 1.2", &densest(30.0), &densest(1.2)),
+            Computed::ratio(
+                "height of the densest layer at gamma 30 over that at 1.2",
+                &densest(30.0),
+                &densest(1.2),
+            ),
             at(&runs, 2.0).bed.find("mass below five diameters", below_five),
             fast.find("mass below five diameters", below_five),
         ]);

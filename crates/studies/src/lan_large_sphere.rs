@@ -19,6 +19,17 @@ const FLOOR: f64 = 7.0;
 const HEIGHTS: usize = 12;
 const CYCLES: usize = 7;
 
+/// Restitution of grains and of walls (Fig. A5.15), beside the case's 0.6 of both.
+const RESTITUTIONS: [(f64, f64); 3] = [(0.9, 0.9), (0.9, 0.6), (0.6, 0.9)];
+
+/// The same five layers in a cell 20 d wide (Fig. A5.13).
+const WIDE: [&str; 4] = [
+    "cell.size=[\"2 m\", \"0.3 m\", \"2.1 m\"]",
+    "grains.0.count=573",
+    "grains.1.at=[\"1 m\", \"0.15 m\", \"0.15 m\"]",
+    "time.end=200 s",
+];
+
 /// A bed and its sphere, once per seed.
 struct Bed {
     name: String,
@@ -49,8 +60,18 @@ impl Bed {
         Ok(Self { name: name.into(), runs })
     }
 
+    fn each(&self, of: impl Fn(&Run) -> f64) -> Vec<f64> {
+        self.runs.iter().map(of).collect()
+    }
+
     fn mean(&self, what: &str, of: impl Fn(&Run) -> f64) -> Computed {
-        Computed::mean(format!("{what}, {}", self.name), &self.runs.iter().map(of).collect::<Vec<_>>())
+        Computed::mean(format!("{what}, {}", self.name), &self.each(of))
+    }
+
+    /// Its time to the top over that of another.
+    fn slower_than(&self, other: &Self) -> Computed {
+        let name = format!("time to the top, {} over {}", self.name, other.name);
+        Computed::ratio(name, &self.each(Run::time_to_the_top), &other.each(Run::time_to_the_top))
     }
 }
 
@@ -68,6 +89,14 @@ impl Run {
         let depth = self.running("depth");
         let end = column(&self.height, "time").last().copied().unwrap_or(f64::NAN);
         depth.iter().find(|p| p[1] <= 0.0).map_or(end, |p| p[0])
+    }
+
+    /// How far its top was below the surface of the others, at most, once it had come up, in diameters of the
+    /// small ones.
+    fn deepest_later(&self) -> f64 {
+        let top = self.time_to_the_top();
+        let later = self.running("depth").into_iter().filter(|p| p[0] > top);
+        later.map(|p| p[1] / SMALL).fold(0.0, f64::max)
     }
 
     /// How far its centre rose above where it was at first, in diameters of the small ones.
@@ -138,9 +167,17 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
     if request.quick {
         let bed = Bed::new("6d cell", &["time.end=12 s".into()], &SEEDS[..1], request)?;
         let computed = vec![bed.mean("rise", Run::rise)];
-        return Ok(Ran { computed, figures: vec![heights(&bed)] });
+        return Ok(Ran { computed, figures: vec![heights(&bed, "Fig. A5.12")] });
     }
     let bed = Bed::new("6d cell", &[], &SEEDS, request)?;
+    let restitutions = RESTITUTIONS.map(|(grains, walls)| {
+        let overrides =
+            [format!("contact.restitution={grains}"), format!("contact.pairs.0.restitution={walls}")];
+        Bed::new(&format!("restitution {grains} and {walls}"), &overrides, &SEEDS, request)
+    });
+    let [lively, lively_grains, lively_walls] = restitutions;
+    let [lively, lively_grains, lively_walls] = [lively?, lively_grains?, lively_walls?];
+    let wide = Bed::new("20d cell", &WIDE.map(String::from), &SEEDS, request)?;
     let computed = vec![
         bed.mean("time to the top", Run::time_to_the_top),
         bed.mean("rise", Run::rise),
@@ -149,19 +186,45 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
         bed.mean("contacts while the floor rises over those while it falls", Run::contacts_rising),
         bed.mean("fewest contacts while the floor falls", Run::fewest_contacts),
         bed.mean("correlation of contacts and velocity", Run::correlation),
+        bed.mean("deepest place after it has come up", Run::deepest_later),
+        lively.mean("time to the top", Run::time_to_the_top),
+        lively.slower_than(&bed),
+        lively_grains.slower_than(&lively_walls),
+        wide.mean("deepest place after it has come up", Run::deepest_later),
+        wide.slower_than(&bed),
     ];
-    Ok(Ran { computed, figures: vec![heights(&bed), spectra(&bed), cycle(&bed)] })
+    let figures = vec![
+        heights(&bed, "Fig. A5.12"),
+        heights(&wide, "Fig. A5.13"),
+        against_restitution(&[&bed, &lively_walls, &lively_grains, &lively]),
+        spectra(&bed),
+        cycle(&bed),
+    ];
+    Ok(Ran { computed, figures })
 }
 
-fn heights(bed: &Bed) -> Figure {
+fn heights(bed: &Bed, place: &str) -> Figure {
     let curve = |(k, r): (usize, &Run)| Curve::line(format!("seed {}", k + 1), r.running("height"));
     Figure {
-        title: "Height of the sphere (Fig. A5.12)".into(),
+        title: format!("Height of the sphere, {} ({place})", bed.name),
         caption: "Centre of the sphere above the floor, running mean over a second.".into(),
         body: Body::Curves {
             x: Axis::linear("time", "s"),
             y: Axis::linear("height", "m"),
             curves: bed.runs.iter().enumerate().map(curve).collect(),
+        },
+    }
+}
+
+fn against_restitution(beds: &[&Bed]) -> Figure {
+    let curve = |bed: &&Bed| Curve::line(&bed.name, bed.runs[0].running("height"));
+    Figure {
+        title: "Height of the sphere against restitution (Fig. A5.15)".into(),
+        caption: "Centre of the sphere above the floor, running mean over a second, seed 1; restitution of grains and of walls, 0.6 of both in the 6d cell.".into(),
+        body: Body::Curves {
+            x: Axis::linear("time", "s"),
+            y: Axis::linear("height", "m"),
+            curves: beds.iter().map(curve).collect(),
         },
     }
 }

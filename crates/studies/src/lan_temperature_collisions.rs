@@ -1,6 +1,6 @@
 //! Temperature and collisions of a vibrated layer over the acceleration (Lan 4.2, Figs A4.11-12).
 
-use crate::lan_expansion::{DIAMETER, Run, at, curve, over, plot};
+use crate::lan_expansion::{DIAMETER, Run, at, curve, plot};
 use crate::layers::{GRAVITY, Layers};
 use crate::study::{Computed, Ran, Request};
 use brazilnut_base::figure::{Axis, Style};
@@ -30,8 +30,8 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
     let temperature = |g: f64| at(&runs, g).temperatures();
     let rate = |g: f64| at(&runs, g).rates();
     let mut computed = vec![
-        over("temperature at gamma 3.15 over that at 1.2", &temperature(3.15), &temperature(1.2)),
-        over("collisions at gamma 3.15 over those at 1.2", &rate(3.15), &rate(1.2)),
+        Computed::ratio("temperature at gamma 3.15 over that at 1.2", &temperature(3.15), &temperature(1.2)),
+        Computed::ratio("collisions at gamma 3.15 over those at 1.2", &rate(3.15), &rate(1.2)),
     ];
     if !request.quick {
         // Slopes on log axes, of the means over the seeds.
@@ -42,7 +42,7 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
         let steps = runs.windows(2).map(|w| (w[0].gamma, w[1].gamma));
         let least_rise = steps.map(|(a, b)| mean(temperature(b)) / mean(temperature(a)));
         computed.extend([
-            over("temperature at gamma 2 over that at 1.2", &temperature(2.0), &temperature(1.2)),
+            Computed::ratio("temperature at gamma 2 over that at 1.2", &temperature(2.0), &temperature(1.2)),
             Computed::new(
                 "least rise of the temperature from one gamma to the next",
                 least_rise.fold(f64::INFINITY, f64::min),
@@ -51,7 +51,7 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
                 "slope of the temperature beyond gamma 4.1 over that from 2 to 4.1",
                 slope(&temperature, 4.1, 30.0) / slope(&temperature, 2.0, 4.1),
             ),
-            over("collisions at gamma 2 over those at 1.2", &rate(2.0), &rate(1.2)),
+            Computed::ratio("collisions at gamma 2 over those at 1.2", &rate(2.0), &rate(1.2)),
             Computed::new(
                 "slope of the collisions beyond gamma 4.1 over that from 1.2 to 2",
                 slope(&rate, 4.1, 30.0) / slope(&rate, 1.2, 2.0),

@@ -66,6 +66,15 @@ impl Field {
         self.speed_over(0..self.z.len())
     }
 
+    /// Mean of |u| over the cells of the middle half of the columns over that of the eight columns at each
+    /// wall (Lan, Fig. A5.9; eight diameters is the width of its rolls).
+    #[must_use]
+    pub fn middle_over_walls(&self) -> f64 {
+        let n = self.x.len();
+        let mean = |columns: Vec<usize>| self.speed_over(columns.into_iter().flat_map(|i| self.column(i)));
+        mean((n / 4..n - n / 4).collect()) / mean((0..8.min(n)).chain(n.saturating_sub(8)..n).collect())
+    }
+
     /// The cells of column `i`.
     fn column(&self, i: usize) -> impl Iterator<Item = usize> + use<> {
         (i..self.z.len()).step_by(self.x.len())
@@ -97,6 +106,14 @@ impl Field {
     #[must_use]
     pub fn along_the_walls(&self) -> f64 {
         self.folded()[0][1]
+    }
+
+    /// Mean vertical velocity of the grains of the middle fifth of the columns, m/s, as in [`Self::folded`].
+    #[must_use]
+    pub fn in_the_middle(&self) -> f64 {
+        let v = self.folded();
+        let middle = &v[v.len() - v.len().div_ceil(5)..];
+        middle.iter().map(|p| p[1]).sum::<f64>() / middle.len() as f64
     }
 
     /// Distance from the end at which the vertical velocity changes its sign for the `n`th time, m, linear
@@ -169,6 +186,9 @@ mod tests {
         let f = rolls(1.0, 0.5);
         assert!((f.speed() - 8.0 / 6.0).abs() < 1e-15 && (f.along_the_walls() + 2.0).abs() < 1e-15);
         // Between 0.05 (-2) and 0.15 (+1).
+        // Columns 1 to 4 over all, each counted twice: 1 over 8/6.
+        assert!((f.middle_over_walls() - 0.75).abs() < 1e-15);
+        assert!((f.in_the_middle() - 1.0).abs() < 1e-15);
         assert!((f.turning(1) - (0.05 + 0.1 * 2.0 / 3.0)).abs() < 1e-15 && f.turning(2).is_nan());
         assert_eq!(f.speeds().len(), 6);
     }

@@ -69,6 +69,13 @@ impl Computed {
         let error = (of.len() > 1).then(|| (square / (n * (n - 1.0))).sqrt());
         Self { name: name.into(), value: mean, error }
     }
+
+    /// The mean ratio of runs with the same seeds, with its standard error.
+    #[must_use]
+    pub fn ratio(name: impl Into<String>, above: &[f64], below: &[f64]) -> Self {
+        let ratios: Vec<f64> = above.iter().zip(below).map(|(a, b)| a / b).collect();
+        Self::mean(name, &ratios)
+    }
 }
 
 impl From<(Vec<Computed>, Vec<Figure>)> for Ran {

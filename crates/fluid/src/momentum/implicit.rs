@@ -11,7 +11,7 @@
 use crate::boundary::Boundary;
 use crate::lanes::{Kernel, Lanes, Path, dispatch};
 use crate::parallel::Scratch;
-use crate::pressure::rows::{Block, Cut, Plane, Rows, Slab, for_each_slab};
+use crate::pressure::rows::{Block, Cut, Rows, for_each_slab};
 use crate::pressure::tridiagonal::{End, Lines, decay};
 use crate::shape::Shape;
 use crate::spec::FluidSpec;
@@ -101,7 +101,7 @@ impl System {
 
     /// Solves along rows `first..first + count` of `rows`, all their columns `0..width` at once.
     #[inline(always)]
-    fn along_rows<const W: usize, const F: bool>(&self, l: Lanes<W, F>, rows: &mut impl Rows, width: usize) {
+    fn along_rows<const W: usize, const F: bool>(&self, l: Lanes<W, F>, rows: &mut Rows<'_>, width: usize) {
         let Some(ends) = self.ends else { return };
         for (end, push) in self.push.into_iter().enumerate() {
             if push != 0.0 {
@@ -138,7 +138,7 @@ impl System {
     fn cyclic_rows<const W: usize, const F: bool>(
         &self,
         l: Lanes<W, F>,
-        rows: &mut impl Rows,
+        rows: &mut Rows<'_>,
         y: &mut [f64],
         g: &mut [f64],
     ) {
@@ -233,8 +233,8 @@ impl Kernel for InPlanes<'_> {
                 out[0] += system.push[0];
                 out[system.count - 1] += system.push[1];
             }
-            let diagonal = [system.diagonal; W];
-            lines.solve(l, &mut Plane { data: rows, pitch }, 0, diagonal, system.scale, scratch);
+            let diagonal = [[system.diagonal; W]];
+            lines.solve(l, &mut Rows::of_plane(rows, pitch), 0, diagonal, system.scale, scratch);
             for (row, out) in (group..last).zip(rows.chunks_exact_mut(pitch)) {
                 planes[at(row)..][..system.count].copy_from_slice(&out[..system.count]);
             }
@@ -245,7 +245,7 @@ impl Kernel for InPlanes<'_> {
             for plane in planes.chunks_exact_mut(shape.plane) {
                 let interior = &mut plane[shape.ghosts(1) * shape.stride[1]..];
                 let pitch = shape.stride[1];
-                self.systems[1].along_rows(l, &mut Plane { data: interior, pitch }, pitch);
+                self.systems[1].along_rows(l, &mut Rows::of_plane(interior, pitch), pitch);
             }
         }
     }
@@ -258,34 +258,14 @@ struct Across<'a, 'b> {
     plane: usize,
     offset: usize,
     ghosts: usize,
-    slab: &'a mut Slab<'b>,
-}
-
-/// A slab without its ghost rows.
-struct Inner<'a, 'b>(&'a mut Slab<'b>, usize);
-
-impl Rows for Inner<'_, '_> {
-    #[inline(always)]
-    fn row(&self, r: usize) -> &[f64] {
-        self.0.row(r + self.1)
-    }
-
-    #[inline(always)]
-    fn row_mut(&mut self, r: usize) -> &mut [f64] {
-        self.0.row_mut(r + self.1)
-    }
-
-    #[inline(always)]
-    fn ahead(&self, width: usize) -> usize {
-        self.0.ahead(width)
-    }
+    slab: &'a mut Rows<'b>,
 }
 
 impl Kernel for Across<'_, '_> {
     #[inline(always)]
     fn run<const W: usize, const F: bool>(self, l: Lanes<W, F>) {
         let width = self.slab.width();
-        let mut rows = Inner(self.slab, self.ghosts);
+        let mut rows = self.slab.after(self.ghosts);
         self.system.along_rows(l, &mut rows, width);
         let system = self.system;
         for r in 0..system.first + system.count {

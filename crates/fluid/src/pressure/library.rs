@@ -72,7 +72,7 @@ impl LibraryTransform {
     }
 
     /// Transforms `width` (even, at most [`PANEL`]) columns from `column` on, in place.
-    pub fn forward(&self, rows: &mut impl Rows, column: usize, width: usize) {
+    pub fn forward(&self, rows: &mut Rows<'_>, column: usize, width: usize) {
         let n = self.length;
         self.with_lines(|lines, scratch| {
             for i in 0..n {
@@ -104,7 +104,7 @@ impl LibraryTransform {
     }
 
     /// Undoes [`Self::forward`], times `length`.
-    pub fn inverse(&self, rows: &mut impl Rows, column: usize, width: usize) {
+    pub fn inverse(&self, rows: &mut Rows<'_>, column: usize, width: usize) {
         let n = self.length;
         self.with_lines(|lines, scratch| {
             for k in 0..n {

@@ -3,7 +3,8 @@
 pub(crate) mod conjugate_gradient;
 pub(crate) mod fft;
 pub(crate) mod library;
-pub mod poisson;
+pub mod panel;
+pub(crate) mod poisson;
 pub(crate) mod rows;
 #[cfg(test)]
 mod suite;

@@ -10,7 +10,7 @@
 //! a step does with the planes before and after.
 
 use super::library::{LibraryTransform, PANEL};
-use super::rows::{Block, Cut, Plane, Rows, Slab, for_each_slab};
+use super::rows::{Block, Cut, Rows, for_each_slab};
 use super::transform::{Family, Transform, eigenvalue};
 use super::tridiagonal::{End, Lines, remove_mean, solve_closed_singular};
 use crate::grid::{Grid, largest_prime};
@@ -163,6 +163,36 @@ impl Poisson {
         }
     }
 
+    /// Columns of a row that carry something, filled up to whole vectors.
+    fn width(&self) -> usize {
+        self.cells[0].next_multiple_of(8)
+    }
+
+    /// The first `width` columns of `rows`, along the direction of plan `level`.
+    #[inline(always)]
+    fn transform<const W: usize, const F: bool>(
+        &self,
+        l: Lanes<W, F>,
+        level: usize,
+        rows: &mut Rows<'_>,
+        width: usize,
+        direction: Direction,
+    ) {
+        match &self.plans[level] {
+            Plan::None => {}
+            Plan::Batched(t) => t.run(l.path(), rows, width, direction),
+            Plan::Library(t) => {
+                for column in (0..width).step_by(PANEL) {
+                    let width = PANEL.min(width - column);
+                    match direction {
+                        Direction::Forward => t.forward(rows, column, width),
+                        Direction::Inverse => t.inverse(rows, column, width),
+                    }
+                }
+            }
+        }
+    }
+
     /// One plane, along its rows' direction.
     #[inline(always)]
     pub(crate) fn transform_plane<const W: usize, const F: bool>(
@@ -175,39 +205,43 @@ impl Poisson {
         if direction == Direction::Forward {
             // The padding shares transforms with the last columns: what it holds reaches them as rounding.
             for row in plane.chunks_exact_mut(pitch) {
-                row[self.cells[0]..].fill(0.0);
+                row[self.cells[0]..self.width()].fill(0.0);
             }
         }
-        transform(l, &self.plans[0], &mut Plane { data: plane, pitch }, pitch, direction);
+        self.transform(l, 0, &mut Rows::of_plane(plane, pitch), self.width(), direction);
     }
 
-    /// The lines `first..first + W` of a slab whose row of each plane is `j`.
+    /// The lines `first..first + G W` of a slab whose row of each plane is `j`.
     #[inline(always)]
-    fn solve_lines<const W: usize, const F: bool>(
+    fn solve_lines<const G: usize, const W: usize, const F: bool>(
         &self,
         l: Lanes<W, F>,
-        slab: &mut Slab<'_>,
+        slab: &mut Rows<'_>,
         (j, k): (usize, usize),
         first: usize,
         scratch: &mut [f64],
     ) {
-        let diagonal: [f64; W] =
-            std::array::from_fn(|lane| 2.0 - self.eigenvalues[0][j] - self.eigenvalues[1][k + lane]);
+        let mut diagonal = [[0.0; W]; G];
+        for (line, d) in diagonal.as_flattened_mut().iter_mut().enumerate() {
+            *d = 2.0 - self.eigenvalues[0][j] - self.eigenvalues[1][k + line];
+        }
         let n = self.cells[0];
-        if self.singular && j == 0 && k == 0 && self.lines.ends[0] == End::Periodic {
-            let (line, scratch) = scratch.split_at_mut(n.next_multiple_of(8));
-            let line = &mut line[..n];
-            line.copy_from_slice(&slab.row(first)[..n]);
+        if !(self.singular && j == 0 && k == 0) {
             self.lines.solve(l, slab, first, diagonal, self.scale, scratch);
-            solve_closed_singular(line);
-            for (x, g) in slab.row_mut(first)[..n].iter_mut().zip(line) {
-                *x = *g * self.scale;
-            }
             return;
         }
+        let (line, scratch) = scratch.split_at_mut(n.next_multiple_of(8));
+        let line = &mut line[..n];
+        line.copy_from_slice(&slab.row(first)[..n]);
         self.lines.solve(l, slab, first, diagonal, self.scale, scratch);
-        if self.singular && j == 0 && k == 0 {
-            remove_mean(&mut slab.row_mut(first)[..n]);
+        let row = &mut slab.row_mut(first)[..n];
+        if self.lines.ends[0] == End::Periodic {
+            solve_closed_singular(line);
+            for (x, g) in row.iter_mut().zip(line) {
+                *x = *g * self.scale;
+            }
+        } else {
+            remove_mean(row);
         }
     }
 }
@@ -227,44 +261,6 @@ enum Part {
     Lines,
 }
 
-/// The first `width` columns of `rows`, panel by panel.
-#[inline(always)]
-fn transform<const W: usize, const F: bool>(
-    l: Lanes<W, F>,
-    plan: &Plan,
-    rows: &mut impl Rows,
-    width: usize,
-    direction: Direction,
-) {
-    match plan {
-        Plan::None => {}
-        Plan::Batched(t) => {
-            let mut scratch = Scratch::take(2 * W * t.length);
-            let z = scratch.as_mut().as_chunks_mut::<W>().0.as_chunks_mut::<2>().0;
-            let mut column = 0;
-            while column < width {
-                let half = column + 2 * W > width;
-                match (direction, half) {
-                    (Direction::Forward, false) => t.forward::<false, W, F>(l, rows, column, z),
-                    (Direction::Forward, true) => t.forward::<true, W, F>(l, rows, column, z),
-                    (Direction::Inverse, false) => t.inverse::<false, W, F>(l, rows, column, z),
-                    (Direction::Inverse, true) => t.inverse::<true, W, F>(l, rows, column, z),
-                }
-                column += 2 * W;
-            }
-        }
-        Plan::Library(t) => {
-            for column in (0..width).step_by(PANEL) {
-                let width = PANEL.min(width - column);
-                match direction {
-                    Direction::Forward => t.forward(rows, column, width),
-                    Direction::Inverse => t.inverse(rows, column, width),
-                }
-            }
-        }
-    }
-}
-
 struct PlaneKernel<'a> {
     poisson: &'a Poisson,
     plane: &'a mut [f64],
@@ -281,7 +277,7 @@ impl Kernel for PlaneKernel<'_> {
 struct SlabKernel<'a, 'b> {
     poisson: &'a Poisson,
     s: usize,
-    slab: &'a mut Slab<'b>,
+    slab: &'a mut Rows<'b>,
     what: Part,
 }
 
@@ -289,19 +285,25 @@ impl Kernel for SlabKernel<'_, '_> {
     #[inline(always)]
     fn run<const W: usize, const F: bool>(self, l: Lanes<W, F>) {
         let p = self.poisson;
-        let width = self.slab.width();
+        let width = self.slab.width().min(p.width());
         if let Part::All | Part::Transform(Direction::Forward) = self.what {
-            transform(l, &p.plans[1], self.slab, width, Direction::Forward);
+            p.transform(l, 1, self.slab, width, Direction::Forward);
         }
         if let Part::All | Part::Lines = self.what {
             let (j, k0) = if p.block.rows > 1 { (self.s, 0) } else { (0, 8 * self.s) };
-            let mut scratch = Scratch::take(p.lines.scratch(W) + p.cells[0].next_multiple_of(8));
-            for first in (0..self.slab.count()).step_by(W) {
-                p.solve_lines(l, self.slab, (j, k0 + first), first, scratch.as_mut());
+            let mut scratch = Scratch::take(p.lines.scratch(2 * W) + p.cells[0].next_multiple_of(8));
+            let (scratch, count) = (scratch.as_mut(), self.slab.count());
+            for first in (0..count).step_by(2 * W) {
+                let at = (j, k0 + first);
+                if first + 2 * W <= count {
+                    p.solve_lines::<2, W, F>(l, self.slab, at, first, scratch);
+                } else {
+                    p.solve_lines::<1, W, F>(l, self.slab, at, first, scratch);
+                }
             }
         }
         if let Part::All | Part::Transform(Direction::Inverse) = self.what {
-            transform(l, &p.plans[1], self.slab, width, Direction::Inverse);
+            p.transform(l, 1, self.slab, width, Direction::Inverse);
         }
     }
 }

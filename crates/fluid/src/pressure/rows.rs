@@ -3,40 +3,6 @@
 use crate::parallel::for_each;
 use std::marker::PhantomData;
 
-/// Rows that a transform may change.
-pub(crate) trait Rows {
-    /// Row `r`.
-    fn row(&self, r: usize) -> &[f64];
-    /// Row `r`, to be changed.
-    fn row_mut(&mut self, r: usize) -> &mut [f64];
-    /// How far ahead in memory lies what is needed after `width` columns of a row, if these are taken across all rows.
-    fn ahead(&self, width: usize) -> usize;
-}
-
-/// The rows of one plane, one after the other.
-pub(crate) struct Plane<'a> {
-    pub data: &'a mut [f64],
-    pub pitch: usize,
-}
-
-impl Rows for Plane<'_> {
-    #[inline(always)]
-    fn row(&self, r: usize) -> &[f64] {
-        &self.data[r * self.pitch..][..self.pitch]
-    }
-
-    #[inline(always)]
-    fn row_mut(&mut self, r: usize) -> &mut [f64] {
-        &mut self.data[r * self.pitch..][..self.pitch]
-    }
-
-    /// The same place of the next plane: this one was asked for while the last one was worked on.
-    #[inline(always)]
-    fn ahead(&self, _: usize) -> usize {
-        self.data.len()
-    }
-}
-
 /// How a block of planes of rows lies in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Block {
@@ -50,16 +16,42 @@ pub(crate) struct Block {
     pub planes: usize,
 }
 
-/// One row of each plane `first..first + count`, or a stretch of columns of them.
-pub(crate) struct Slab<'a> {
+/// Rows of numbers at a fixed distance, lent to be changed: those of a plane, one row of every plane, or a
+/// stretch of columns of these.
+pub(crate) struct Rows<'a> {
     start: *mut f64,
     stride: usize,
     width: usize,
     count: usize,
+    in_one_plane: bool,
     lent: PhantomData<&'a mut [f64]>,
 }
 
-impl Slab<'_> {
+#[allow(
+    unsafe_code,
+    reason = "rows at a distance are memory that no slice can describe; each is lent as a slice"
+)]
+impl<'a> Rows<'a> {
+    /// The rows of one plane, one after the other.
+    pub fn of_plane(data: &'a mut [f64], pitch: usize) -> Self {
+        Self {
+            start: data.as_mut_ptr(),
+            stride: pitch,
+            width: pitch,
+            count: data.len() / pitch,
+            in_one_plane: true,
+            lent: PhantomData,
+        }
+    }
+
+    /// All but the first `n` rows.
+    pub fn after(&mut self, n: usize) -> Rows<'_> {
+        assert!(n < self.count);
+        // SAFETY: row `n` is one of those that are lent.
+        let start = unsafe { self.start.add(n * self.stride) };
+        Rows { start, count: self.count - n, lent: PhantomData, ..*self }
+    }
+
     /// Numbers in a row.
     pub fn width(&self) -> usize {
         self.width
@@ -69,31 +61,33 @@ impl Slab<'_> {
     pub fn count(&self) -> usize {
         self.count
     }
-}
 
-#[allow(
-    unsafe_code,
-    reason = "a slab is strided memory that no slice can describe; rows of it are lent as slices"
-)]
-impl Rows for Slab<'_> {
+    /// Row `r`.
     #[inline(always)]
-    fn row(&self, r: usize) -> &[f64] {
+    pub fn row(&self, r: usize) -> &[f64] {
         assert!(r < self.count);
-        // SAFETY: `for_each_slab` checked that the row lies in the block it holds exclusively.
+        // SAFETY: whoever made these rows holds their memory exclusively.
         unsafe { std::slice::from_raw_parts(self.start.add(r * self.stride), self.width) }
     }
 
+    /// Row `r`, to be changed.
     #[inline(always)]
-    fn row_mut(&mut self, r: usize) -> &mut [f64] {
+    pub fn row_mut(&mut self, r: usize) -> &mut [f64] {
         assert!(r < self.count);
-        // SAFETY: as above; the borrow of the slab keeps rows from being lent twice.
+        // SAFETY: as above; the borrow keeps rows from being lent twice.
         unsafe { std::slice::from_raw_parts_mut(self.start.add(r * self.stride), self.width) }
     }
 
-    /// The next columns; beyond the end of a row lies the row of the next slab.
+    /// True for the rows of one plane.
     #[inline(always)]
-    fn ahead(&self, width: usize) -> usize {
-        width
+    pub fn in_one_plane(&self) -> bool {
+        self.in_one_plane
+    }
+
+    /// How far ahead in memory lies what is needed after these rows: the next plane, or the next row of every plane.
+    #[inline(always)]
+    pub fn ahead(&self) -> usize {
+        if self.in_one_plane { self.count * self.stride } else { self.width }
     }
 }
 
@@ -121,7 +115,7 @@ pub(crate) fn for_each_slab(
     block: Block,
     cut: Cut,
     parallel: bool,
-    work: impl Fn(usize, &mut Slab<'_>) + Sync,
+    work: impl Fn(usize, &mut Rows<'_>) + Sync,
 ) {
     let Block { pitch, rows, plane, planes } = block;
     assert!(pitch * rows <= plane && plane * (planes - 1) + pitch * rows <= data.len());
@@ -142,6 +136,6 @@ pub(crate) fn for_each_slab(
         // SAFETY: rows `offset + r plane .. + width`, r < count, lie inside `data` by the
         // assertion above and belong to slab `s` alone: slabs differ in row, columns or planes.
         let start = unsafe { shared.0.add(offset) };
-        work(s, &mut Slab { start, stride: plane, width, count, lent: PhantomData });
+        work(s, &mut Rows { start, stride: plane, width, count, in_one_plane: false, lent: PhantomData });
     });
 }

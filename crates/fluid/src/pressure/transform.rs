@@ -10,9 +10,12 @@
 //! Fourier: X_k = Re, X_{n-k} = -Im of sum_i x_i exp(-2 pi i k i / n)
 //! ```
 
-use super::fft::{Complex, Plan};
+use super::fft::{Plan, Stage, with_radix};
+use super::panel::{JoinSpectra, Load, Panel, PartSpectra, Store};
+use super::poisson::Direction;
 use super::rows::Rows;
-use crate::lanes::{Lanes, prefetch};
+use crate::lanes::{Path, dispatch};
+use crate::parallel::Scratch;
 use std::f64::consts::PI;
 
 /// Which transform a direction takes.
@@ -25,19 +28,26 @@ pub enum Family {
 }
 
 /// A transform of lines of one length, many lines at once.
+///
+/// The first stage of the complex transform reads from memory and the last writes to it, joined with the sums
+/// that lead from the spectrum of two lines to each: other passes over the panel of lines at hand would cost as
+/// much as its stages.
 #[derive(Clone, Debug)]
 pub(crate) struct Transform {
     /// Points of a line.
     pub length: usize,
-    plan: Plan,
-    /// Which point of the line stands at each place of the complex input.
-    source: Vec<usize>,
+    /// Ends with a stage whose butterflies are taken in pairs.
+    forward: Plan,
+    /// Starts with such a stage.
+    inverse: Plan,
+    /// Which point of the line stands at each place of the complex input of the forward transform.
+    pub source: Vec<usize>,
     /// Which point of the line the inverse leaves at each place.
-    point: Vec<usize>,
-    /// Where the spectrum's number k stands in the input of the inverse.
-    place: Vec<usize>,
+    pub point: Vec<usize>,
+    /// The first butterflies of the inverse in pairs: the least number in the first, its place, and that of the other.
+    pub pairs: Vec<[usize; 3]>,
     /// cos and sin of the half-sample shift of number k, 0 <= k <= n / 2.
-    shift: Vec<[f64; 2]>,
+    pub shift: Vec<[f64; 2]>,
 }
 
 /// Eigenvalue of the second difference for number `k` of `n`, in units of 1/h².
@@ -50,61 +60,25 @@ pub fn eigenvalue(family: Family, k: usize, n: usize) -> f64 {
     -4.0 * half_angle.sin().powi(2)
 }
 
-/// `2 W` columns of row `r`, or `W` and zeros.
-///
-/// `HALF` is a constant: a condition here sends every vector through the stack.
-#[inline(always)]
-fn get<const HALF: bool, const W: usize, const F: bool>(
-    l: Lanes<W, F>,
-    rows: &impl Rows,
-    r: usize,
-    column: usize,
-) -> Complex<W> {
-    let row = &rows.row(r)[column..];
-    [l.load(row), if HALF { [0.0; W] } else { l.load(&row[W..]) }]
-}
-
-/// Undoes [`get`].
-#[inline(always)]
-fn put<const HALF: bool, const W: usize, const F: bool>(
-    l: Lanes<W, F>,
-    rows: &mut impl Rows,
-    r: usize,
-    column: usize,
-    x: Complex<W>,
-) {
-    let row = &mut rows.row_mut(r)[column..];
-    l.store(row, x[0]);
-    if !HALF {
-        l.store(&mut row[W..], x[1]);
-    }
-}
-
-/// Asks for what a transform will need after these columns of row `r`: a step
-/// from row to row is too long for a processor to guess it.
-#[inline(always)]
-fn prefetch_beyond<const W: usize>(rows: &impl Rows, r: usize, column: usize) {
-    let next = rows.row(r).as_ptr().wrapping_add(column + rows.ahead(2 * W));
-    for line in (0..2 * W).step_by(8) {
-        prefetch(next.wrapping_add(line));
-    }
-}
-
 impl Transform {
     /// The transform of `length` points, all of whose prime factors are small.
     pub fn new(family: Family, length: usize) -> Self {
-        let plan = Plan::new(length);
+        let (forward, inverse) = (Plan::new(length, false), Plan::new(length, true));
         let reorder = |i: usize| match family {
             Family::Fourier => i,
             Family::Cosine if 2 * i < length => 2 * i,
             Family::Cosine => 2 * (length - i) - 1,
         };
-        let source = plan.source.iter().map(|&i| reorder(i)).collect();
+        let source = forward.source.iter().map(|&i| reorder(i)).collect();
         let point = (0..length).map(reorder).collect();
-        let mut place = vec![0; length];
-        for (p, &k) in plan.source.iter().enumerate() {
-            place[k] = p;
+        // A butterfly holds every `apart`th number from its least one on; n - k is in the one from `apart - k` on.
+        let radix = inverse.stages[0].radix;
+        let apart = length / radix;
+        let mut place = vec![0; apart];
+        for (block, at) in inverse.source.chunks_exact(radix).enumerate() {
+            place[at[0]] = block * radix;
         }
+        let pairs = (0..=apart / 2).map(|k| [k, place[k], place[(apart - k) % apart]]).collect();
         let shift = (0..=length / 2)
             .map(|k| match family {
                 Family::Fourier => [1.0, 0.0],
@@ -114,86 +88,52 @@ impl Transform {
                 }
             })
             .collect();
-        Self { length, plan, source, point, place, shift }
+        Self { length, forward, inverse, source, point, pairs, shift }
     }
 
-    /// Transforms `2 W` columns from `column` on, in place; with `HALF`, only
-    /// the first `W` of them.
-    #[inline(always)]
-    pub fn forward<const HALF: bool, const W: usize, const F: bool>(
-        &self,
-        l: Lanes<W, F>,
-        rows: &mut impl Rows,
-        column: usize,
-        z: &mut [Complex<W>],
-    ) {
-        // Straight from memory to memory: a pair in between would go through the stack.
-        for (z, &i) in z.iter_mut().zip(&self.source) {
-            prefetch_beyond::<W>(rows, i, column);
-            let row = &rows.row(i)[column..];
-            z[0].copy_from_slice(&row[..W]);
-            if HALF {
-                z[1] = [0.0; W];
-            } else {
-                z[1].copy_from_slice(&row[W..2 * W]);
-            }
-        }
-        self.plan.run(l, z);
-        let n = self.length;
-        put::<HALF, W, F>(l, rows, 0, column, z[0]);
-        for k in 1..=n / 2 {
-            let [c, s] = self.shift[k];
-            let (p, q) = (z[k], z[n - k]);
-            // Each of the two spectra at k, doubled: its real part, minus its imaginary part.
-            let (re_a, im_a) = (l.add(p[0], q[0]), l.sub(q[1], p[1]));
-            let (re_b, im_b) = (l.add(p[1], q[1]), l.sub(p[0], q[0]));
-            let (c, s) = ([0.5 * c; W], [0.5 * s; W]);
-            let x = [l.vmsub(c, re_a, l.mul(s, im_a)), l.vmsub(c, re_b, l.mul(s, im_b))];
-            put::<HALF, W, F>(l, rows, k, column, x);
-            if 2 * k < n {
-                let y = [l.vmadd(s, re_a, l.mul(c, im_a)), l.vmadd(s, re_b, l.mul(c, im_b))];
-                put::<HALF, W, F>(l, rows, n - k, column, y);
+    /// Transforms the first `width` columns, a multiple of eight, in place; the inverse leaves `length` times
+    /// what the forward transform was given.
+    ///
+    /// Each stage is entered through [`dispatch`], so that it is compiled as a function of its own.
+    pub fn run(&self, path: Path, rows: &mut Rows<'_>, width: usize, direction: Direction) {
+        let panel = 2 * path.lanes();
+        let mut scratch = Scratch::take(panel * self.length);
+        for column in (0..width).step_by(panel) {
+            let z = scratch.as_mut();
+            match (direction, column + panel > width) {
+                (Direction::Forward, false) => self.forward::<false>(path, rows, column, z),
+                (Direction::Forward, true) => self.forward::<true>(path, rows, column, z),
+                (Direction::Inverse, false) => self.inverse::<false>(path, rows, column, z),
+                (Direction::Inverse, true) => self.inverse::<true>(path, rows, column, z),
             }
         }
     }
 
-    /// Undoes [`Self::forward`], times `length`.
-    #[inline(always)]
-    pub fn inverse<const HALF: bool, const W: usize, const F: bool>(
-        &self,
-        l: Lanes<W, F>,
-        rows: &mut impl Rows,
+    fn forward<const HALF: bool>(&self, path: Path, rows: &mut Rows<'_>, column: usize, z: &mut [f64]) {
+        let [first, middle @ .., last] = &self.forward.stages[..] else { return };
+        let load = self.panel(first, rows, column, z);
+        with_radix!(first.radix, [1 2 3 4 5 8], R => dispatch(path, Load::<R, HALF>(load)));
+        middle.iter().for_each(|s| s.run(path, z));
+        let part = self.panel(last, rows, column, z);
+        with_radix!(last.radix, [1 2 3 4 5], R => dispatch(path, PartSpectra::<R, HALF>(part)));
+    }
+
+    fn inverse<const HALF: bool>(&self, path: Path, rows: &mut Rows<'_>, column: usize, z: &mut [f64]) {
+        let [first, middle @ .., last] = &self.inverse.stages[..] else { return };
+        let join = self.panel(first, rows, column, z);
+        with_radix!(first.radix, [1 2 3 4 5], R => dispatch(path, JoinSpectra::<R, HALF>(join)));
+        middle.iter().for_each(|s| s.run(path, z));
+        let store = self.panel(last, rows, column, z);
+        with_radix!(last.radix, [1 2 3 4 5 8], R => dispatch(path, Store::<R, HALF>(store)));
+    }
+
+    fn panel<'a, 'b>(
+        &'a self,
+        stage: &'a Stage,
+        rows: &'a mut Rows<'b>,
         column: usize,
-        z: &mut [Complex<W>],
-    ) {
-        let n = self.length;
-        // Real and imaginary parts change places: a forward transform then inverts.
-        let [re, im] = get::<HALF, W, F>(l, rows, 0, column);
-        z[self.place[0]] = [im, re];
-        for k in 1..=n / 2 {
-            let [c, s] = self.shift[k];
-            prefetch_beyond::<W>(rows, k, column);
-            let [a, b] = get::<HALF, W, F>(l, rows, k, column);
-            if 2 * k == n {
-                let x = [c + s; W];
-                z[self.place[k]] = [l.mul(x, b), l.mul(x, a)];
-                break;
-            }
-            prefetch_beyond::<W>(rows, n - k, column);
-            let [a_far, b_far] = get::<HALF, W, F>(l, rows, n - k, column);
-            let (c, s) = ([c; W], [s; W]);
-            let (re_a, im_a) = (l.vmadd(c, a, l.mul(s, a_far)), l.vmsub(c, a_far, l.mul(s, a)));
-            let (re_b, im_b) = (l.vmadd(c, b, l.mul(s, b_far)), l.vmsub(c, b_far, l.mul(s, b)));
-            z[self.place[k]] = [l.sub(re_b, im_a), l.add(re_a, im_b)];
-            z[self.place[n - k]] = [l.add(re_b, im_a), l.sub(re_a, im_b)];
-        }
-        self.plan.run(l, z);
-        for (z, &i) in z.iter().zip(&self.point) {
-            let row = &mut rows.row_mut(i)[column..];
-            row[..W].copy_from_slice(&z[1]);
-            if !HALF {
-                row[W..2 * W].copy_from_slice(&z[0]);
-            }
-        }
+        z: &'a mut [f64],
+    ) -> Panel<'a, 'b> {
+        Panel { transform: self, stage, rows, column, z }
     }
 }

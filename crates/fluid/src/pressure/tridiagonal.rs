@@ -58,131 +58,173 @@ pub(crate) fn decay(b: f64) -> f64 {
 }
 
 impl Lines {
-    /// Scratch numbers that [`Self::solve`] needs with `W` lanes.
-    pub fn scratch(&self, lanes: usize) -> usize {
-        2 * self.n.next_multiple_of(8) * lanes
+    /// Scratch numbers that [`Self::solve`] needs for so many lines at once.
+    pub fn scratch(&self, lines: usize) -> usize {
+        2 * self.n.next_multiple_of(8) * lines
     }
 
-    /// Solves the rows `first..first + W` of `rows` in place, for right sides
+    /// Solves the rows `first..first + G W` of `rows` in place, for right sides
     /// scaled by `scale` and one diagonal each.
+    ///
+    /// A recurrence waits for its own last number: with two groups of lanes one works while the other waits.
     #[inline(always)]
-    pub fn solve<const W: usize, const F: bool>(
+    pub fn solve<const G: usize, const W: usize, const F: bool>(
         &self,
         l: Lanes<W, F>,
-        rows: &mut impl Rows,
+        rows: &mut Rows<'_>,
         first: usize,
-        diagonal: [f64; W],
+        diagonal: [[f64; W]; G],
         scale: f64,
         scratch: &mut [f64],
     ) {
         let padded = self.n.next_multiple_of(8);
-        let (g, c) = scratch.split_at_mut(padded * W);
-        let mut i = 0;
-        while i < self.n {
-            l.gather(rows, first, i, &mut g[i * W..(i + W) * W]);
-            i += W;
+        let (g, c) = scratch.split_at_mut(padded * G * W);
+        let g = g.as_chunks_mut::<W>().0.as_chunks_mut::<G>().0;
+        let c = c.as_chunks_mut::<W>().0.as_chunks_mut::<G>().0;
+        for i in (0..self.n).step_by(W) {
+            for group in 0..G {
+                let block = l.gather(rows, first + group * W, i);
+                for (column, g) in block.into_iter().zip(&mut g[i..i + W]) {
+                    g[group] = column;
+                }
+            }
         }
-        let (g, c) = (&mut g.as_chunks_mut::<W>().0[..self.n], &mut c.as_chunks_mut::<W>().0[..self.n]);
+        let whole = self.n / W * W;
+        let (used, c) = (&mut g[..self.n], &mut c[..self.n]);
         if self.ends[0] == End::Periodic {
-            self.cyclic(l, g, diagonal, scale);
+            self.cyclic(l, used, diagonal, scale);
         } else {
-            self.eliminate(l, g, c, diagonal, scale);
+            self.eliminate(l, used, c, diagonal, scale);
         }
-        let g = g.as_flattened();
+        for i in (0..whole).step_by(W) {
+            for group in 0..G {
+                let mut block = [[0.0; W]; W];
+                for (column, g) in block.iter_mut().zip(&g[i..i + W]) {
+                    *column = g[group];
+                }
+                l.scatter(rows, first + group * W, i, block);
+            }
+        }
         // The last block reaches into the padding of the row, which carries no meaning.
-        let (whole, rest) = (self.n / W * W, self.n % W);
-        let mut i = 0;
-        while i < whole {
-            l.scatter(rows, first, i, &g[i * W..(i + W) * W]);
-            i += W;
-        }
-        for lane in 0..W {
-            let row = &mut rows.row_mut(first + lane)[whole..whole + rest];
-            for (i, x) in row.iter_mut().enumerate() {
-                *x = g[(whole + i) * W + lane];
+        for line in 0..G * W {
+            let row = &mut rows.row_mut(first + line)[whole..self.n];
+            for (x, g) in row.iter_mut().zip(&g[whole..self.n]) {
+                *x = g[line / W][line % W];
             }
         }
     }
 
     #[inline(always)]
-    fn eliminate<const W: usize, const F: bool>(
+    fn eliminate<const G: usize, const W: usize, const F: bool>(
         &self,
         l: Lanes<W, F>,
-        g: &mut [[f64; W]],
-        c: &mut [[f64; W]],
-        b: [f64; W],
+        g: &mut [[[f64; W]; G]],
+        c: &mut [[[f64; W]; G]],
+        b: [[f64; W]; G],
         scale: f64,
     ) {
         let n = self.n;
-        let smallest = b.iter().copied().fold(f64::INFINITY, f64::min);
+        let smallest = b.as_flattened().iter().copied().fold(f64::INFINITY, f64::min);
         let settle = settled_after(smallest).min(n - 1).max(1);
         let [low, high] = self.ends.map(End::diagonal);
         let s = [scale; W];
         let one = [1.0; W];
-        let mut factor = l.div(one, l.add(b, [low; W]));
-        let mut y = l.mul(l.mul(g[0], s), factor);
+        let (mut factor, mut y) = ([[0.0; W]; G], [[0.0; W]; G]);
+        for k in 0..G {
+            factor[k] = l.div(one, l.add(b[k], [low; W]));
+            y[k] = l.mul(l.mul(g[0][k], s), factor[k]);
+        }
         (g[0], c[0]) = (y, factor);
         for i in 1..settle {
-            factor = l.div(one, l.sub(b, factor));
-            y = l.mul(l.vmadd(g[i], s, y), factor);
+            for k in 0..G {
+                factor[k] = l.div(one, l.sub(b[k], factor[k]));
+                y[k] = l.mul(l.vmadd(g[i][k], s, y[k]), factor[k]);
+            }
             (g[i], c[i]) = (y, factor);
         }
-        let scaled = l.mul(factor, s);
+        let mut scaled = factor;
+        for k in 0..G {
+            scaled[k] = l.mul(factor[k], s);
+        }
         for g in &mut g[settle..n - 1] {
-            y = l.vmadd(factor, y, l.mul(*g, scaled));
+            for k in 0..G {
+                y[k] = l.vmadd(factor[k], y[k], l.mul(g[k], scaled[k]));
+            }
             *g = y;
         }
-        // A singular system (b = 2, no slope at both ends) gets zero at its last point.
-        let last: [f64; W] = std::array::from_fn(|lane| {
-            let d = b[lane] + high - factor[lane];
-            if d == 0.0 { 0.0 } else { 1.0 / d }
-        });
         if n > 1 {
-            y = l.mul(l.vmadd(g[n - 1], s, y), last);
+            for k in 0..G {
+                // A singular system (b = 2, no slope at both ends) gets zero at its last point.
+                let mut last = [0.0; W];
+                for lane in 0..W {
+                    let d = b[k][lane] + high - factor[k][lane];
+                    last[lane] = if d == 0.0 { 0.0 } else { 1.0 / d };
+                }
+                y[k] = l.mul(l.vmadd(g[n - 1][k], s, y[k]), last);
+            }
             g[n - 1] = y;
         }
         for g in g[settle..n - 1].iter_mut().rev() {
-            y = l.vmadd(factor, y, *g);
+            for k in 0..G {
+                y[k] = l.vmadd(factor[k], y[k], g[k]);
+            }
             *g = y;
         }
         for (g, c) in g[..settle.min(n - 1)].iter_mut().zip(&*c).rev() {
-            y = l.vmadd(*c, y, *g);
+            for k in 0..G {
+                y[k] = l.vmadd(c[k], y[k], g[k]);
+            }
             *g = y;
         }
     }
 
     #[inline(always)]
-    fn cyclic<const W: usize, const F: bool>(
+    fn cyclic<const G: usize, const W: usize, const F: bool>(
         &self,
         l: Lanes<W, F>,
-        g: &mut [[f64; W]],
-        b: [f64; W],
+        g: &mut [[[f64; W]; G]],
+        b: [[f64; W]; G],
         scale: f64,
     ) {
         let n = self.n;
-        let r: [f64; W] = std::array::from_fn(|lane| decay(b[lane]));
-        // 1 / (1 - r^n); the singular system has no closed solution and is done apart.
-        let closing: [f64; W] = std::array::from_fn(|lane| {
-            let gap = 1.0 - r[lane].powi(n as i32);
-            if gap == 0.0 { 0.0 } else { 1.0 / gap }
-        });
-        let mut y = [0.0; W];
-        for g in g.iter() {
-            y = l.vmadd(r, y, *g);
+        let (mut r, mut closing, mut scaled) = ([[0.0; W]; G], [[0.0; W]; G], [[0.0; W]; G]);
+        for k in 0..G {
+            for lane in 0..W {
+                r[k][lane] = decay(b[k][lane]);
+                // 1 / (1 - r^n); the singular system has no closed solution and is done apart.
+                let gap = 1.0 - r[k][lane].powi(n as i32);
+                closing[k][lane] = if gap == 0.0 { 0.0 } else { 1.0 / gap };
+            }
+            scaled[k] = l.mul(r[k], [scale; W]);
         }
-        y = l.mul(y, closing);
+        let mut y = [[0.0; W]; G];
+        for g in g.iter() {
+            for k in 0..G {
+                y[k] = l.vmadd(r[k], y[k], g[k]);
+            }
+        }
+        for k in 0..G {
+            y[k] = l.mul(y[k], closing[k]);
+        }
         for g in g.iter_mut() {
-            y = l.vmadd(r, y, *g);
+            for k in 0..G {
+                y[k] = l.vmadd(r[k], y[k], g[k]);
+            }
             *g = y;
         }
-        let scaled = l.mul(r, [scale; W]);
-        let mut x = [0.0; W];
+        let mut x = [[0.0; W]; G];
         for g in g.iter().rev() {
-            x = l.vmadd(r, x, l.mul(scaled, *g));
+            for k in 0..G {
+                x[k] = l.vmadd(r[k], x[k], l.mul(scaled[k], g[k]));
+            }
         }
-        x = l.mul(x, closing);
+        for k in 0..G {
+            x[k] = l.mul(x[k], closing[k]);
+        }
         for g in g.iter_mut().rev() {
-            x = l.vmadd(r, x, l.mul(scaled, *g));
+            for k in 0..G {
+                x[k] = l.vmadd(r[k], x[k], l.mul(scaled[k], g[k]));
+            }
             *g = x;
         }
     }

@@ -1,12 +1,10 @@
 //! Cost of a coupled step of the tilting bed (Clément 2009, Table 4.3), stage by stage, beside that of the fluid
-//! alone on the same grid, both taken in turn in one run.
-//!
-//! `cargo run --release -p brazilnut-coupling --example bench_tilt -- [STEPS] [METHODS]`, methods by their first
-//! letters, e.g. `sdp` for springs, direct forcing and particle template; `RAYON_NUM_THREADS` sets the threads. One
-//! thread is timed by its own processor time, which other jobs on the machine disturb least.
+//! alone on the same grid, both taken in turn. A step of `fluid-springs` must cost at most 2.5 steps of the fluid
+//! alone, and a tracer of it at most 6 of its cells. See `benches/README.md`.
 
 use brazilnut_base::motion::Motion;
 use brazilnut_base::{Cell, Side, Tick, Vec3, vec3};
+use brazilnut_benches::{Clock, median};
 use brazilnut_coupling::resolved::{Forcing, Inertia, Layout, RETRACTION, Springs, Strength};
 use brazilnut_coupling::transfer::KernelName;
 use brazilnut_coupling::{Body, Coupling, CouplingSpec, Method, Resolved, Still};
@@ -16,7 +14,8 @@ use brazilnut_grains::{
     ContactSpec, Dem, DemSpec, Grains, Gravity, Integrator, Limits, Material, PairSpec, PairTable, Search,
     WallShape, WallSpec,
 };
-use std::time::Instant;
+use clap::Parser;
+use std::error::Error;
 
 const GRAINS: usize = 2500;
 const RADIUS: f64 = 350e-6;
@@ -32,50 +31,45 @@ const SIDES: [Side; 3] = [Side::Walls; 3];
 
 const STAGES: [&str; 6] = ["sort", "fluid", "tracers", "look", "grains", "all"];
 
-fn main() {
-    let mut args = std::env::args().skip(1);
-    let steps: u64 = args.next().and_then(|a| a.parse().ok()).unwrap_or(20);
-    let wanted = args.next().unwrap_or_else(|| "sdp".into());
-    println!(
-        "threads {}, {CELLS:?} cells, {GRAINS} grains, {SUBSTEPS} grain steps",
-        rayon::current_num_threads()
-    );
+/// Largest cost of a step of `fluid-springs` in steps of the fluid alone, and of its tracer in cells of these.
+const MUST: [f64; 2] = [2.5, 6.0];
+
+/// Cost of a coupled step of the tilting bed, in steps of the fluid alone.
+#[derive(Parser)]
+struct Args {
+    /// Steps; the median of each stage counts.
+    #[arg(long, default_value_t = 20)]
+    steps: u64,
+    /// Methods by their first letters: s fluid-springs, d direct-forcing, p particle-template.
+    #[arg(long, default_value = "sdp")]
+    methods: String,
+    /// Numbers of threads.
+    #[arg(long, value_delimiter = ',', default_value = "1,2")]
+    threads: Vec<usize>,
+    /// Given by cargo.
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let args = Args::parse();
+    println!("{CELLS:?} cells, {GRAINS} grains, {SUBSTEPS} grain steps; medians of {} steps", args.steps);
     let springs = Springs { strength: Strength::Cs(1.5), damping: 0.0, inertia: Inertia::Template };
     let methods = [
         ('s', Method::Springs(springs), Layout::Lattice),
         ('d', Method::Forcing(Forcing { sweeps: 3 }), Layout::Shells),
         ('p', Method::Template, Layout::Lattice),
     ];
-    let pool = rayon::ThreadPoolBuilder::new().build().expect("threads");
-    pool.install(|| {
-        for (letter, method, layout) in methods {
-            if wanted.contains(letter) {
-                bench(method, layout, steps);
-            }
+    if let Some(other) = args.methods.chars().find(|c| methods.iter().all(|m| m.0 != *c)) {
+        return Err(format!("there is no method {other}; there are s, d and p").into());
+    }
+    for (_, method, layout) in methods.into_iter().filter(|m| args.methods.contains(m.0)) {
+        for &threads in &args.threads {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+            pool.install(|| bench(method, layout, args.steps, threads));
         }
-    });
-}
-
-/// Time of this thread on its processor where it is the only one and the system tells; else wall time.
-struct Clock(Instant, Option<f64>);
-
-impl Clock {
-    fn start() -> Self {
-        Self(Instant::now(), on_processor())
     }
-
-    fn seconds(&self) -> f64 {
-        let (wall, from) = (self.0.elapsed().as_secs_f64(), self.1);
-        from.zip(on_processor()).map_or(wall, |(from, to)| to - from)
-    }
-}
-
-fn on_processor() -> Option<f64> {
-    if rayon::current_num_threads() > 1 {
-        return None;
-    }
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    Some(1e-9 * text.split_whitespace().next()?.parse::<f64>().ok()?)
+    Ok(())
 }
 
 /// Grain steps as a map of time to work.
@@ -139,7 +133,7 @@ fn solver() -> Solver {
     Solver::new(spec).expect("a plain box")
 }
 
-fn bench(method: Method, layout: Layout, steps: u64) {
+fn bench(method: Method, layout: Layout, steps: u64, threads: usize) {
     let spec = CouplingSpec::Resolved(Resolved {
         method,
         kernel: KernelName::Trilinear,
@@ -169,12 +163,12 @@ fn bench(method: Method, layout: Layout, steps: u64) {
         let body = still(tick.time).modified_gravity();
         let clock = Clock::start();
         alone.advance(&mut free, tick, body, &Medium::default(), |_| {});
-        only.push(clock.seconds());
+        only.push(clock.lap().seconds(threads));
 
         let clock = Clock::start();
         let mut last = 0.0;
         let mut lap = |stage: usize, less: f64| {
-            let now = clock.seconds();
+            let now = clock.lap().seconds(threads);
             spent[stage].push(now - last - less);
             last = now;
         };
@@ -186,7 +180,7 @@ fn bench(method: Method, layout: Layout, steps: u64) {
         fluid.advance(&mut flow, tick, body, medium, |p| {
             let clock = Clock::start();
             during.act(&grains, p);
-            within = clock.seconds();
+            within = clock.lap().seconds(threads);
         });
         lap(1, within);
         coupling.after_fluid(&grains, &flow, &mut state, tick.dt);
@@ -198,32 +192,34 @@ fn bench(method: Method, layout: Layout, steps: u64) {
         }
         lap(4, 0.0);
         spent[2].push(within);
-        spent[5].push(clock.seconds());
+        spent[5].push(clock.lap().seconds(threads));
     }
     let cells = CELLS.iter().product::<usize>() as f64;
-    let alone = median(&mut only);
+    let alone = median(only);
     println!(
-        "\n{name}: fluid only {:.1} ms ({:.1} ns a cell); contacts a grain {:.2}",
+        "\n{name}, {threads} thread(s): fluid alone {:.1} ms ({:.1} ns a cell); contacts a grain {:.2}",
         1e3 * alone,
         1e9 * alone / cells,
         beads.contact_count() as f64 / GRAINS as f64
     );
-    for (stage, spent) in STAGES.iter().zip(&mut spent) {
-        let t = median(spent);
-        println!("  {stage:8} {:7.1} ms {:6.2} x the fluid only", 1e3 * t, t / alone);
+    // The claims are about `fluid-springs`.
+    let must = |most: f64| match method {
+        Method::Springs(_) => format!(" (must be at most {most})"),
+        _ => String::new(),
+    };
+    let spent = spent.map(median);
+    for (stage, t) in STAGES.iter().zip(spent) {
+        let must = if *stage == "all" { must(MUST[0]) } else { String::new() };
+        println!("  {stage:8} {:7.1} ms {:6.2} x the fluid alone{must}", 1e3 * t, t / alone);
     }
     if let Some(work) = coupling.tracers() {
         let n = work.templates.count() as f64;
-        let one = median(&mut spent[2]) / n;
+        let one = spent[2] / n;
         println!(
-            "  {n} tracers, each {:.1} ns = {:.2} cells of the fluid only",
+            "  {n} tracers, each {:.1} ns = {:.2} cells of the fluid alone{}",
             1e9 * one,
-            one / (alone / cells)
+            one / (alone / cells),
+            must(MUST[1])
         );
     }
-}
-
-fn median(x: &mut [f64]) -> f64 {
-    x.sort_by(f64::total_cmp);
-    x[x.len() / 2]
 }

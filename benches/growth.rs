@@ -1,17 +1,17 @@
-//! How the cost of a step grows with the number of grains: prints the exponent of cost against N.
-//!
-//! `bench_scaling [REPEATS]`. One settled bed, periodic sideways, is laid side by side into beds of 10³ to 10⁵
-//! grains, so that all have the same contacts per grain. One thread, whose time on the processor counts: other jobs
-//! on the machine disturb it least. The exponent must be at most 1.1.
+//! How the cost of a step grows with the number of grains: prints the exponent of cost against N, which must be
+//! at most 1.1. One settled bed, periodic sideways, is laid side by side into beds of 10³ to 10⁵ grains, so that
+//! all have the same contacts per grain. One thread. See `benches/README.md`.
 
 use brazilnut_base::{Cell, Side, Tick, Vec3, vec3};
+use brazilnut_benches::Clock;
 use brazilnut_grains::contact::{NormalLaw, RollingLaw, TangentialLaw};
 use brazilnut_grains::packing::{Filling, Placement, Sizes, Species};
 use brazilnut_grains::{
     ContactSpec, Dem, DemSpec, Grains, Gravity, Integrator, Limits, Material, PairSpec, PairTable, Search,
     WallShape, WallSpec,
 };
-use std::time::{SystemTime, UNIX_EPOCH};
+use clap::Parser;
+use std::error::Error;
 
 const FIELD: Gravity = Gravity(vec3(0.0, 0.0, -9.81));
 /// Grains of the bed that is repeated.
@@ -21,10 +21,25 @@ const EDGE: [f64; 2] = [10e-3, 25e-3];
 /// Beds along x and y.
 const TILES: [[usize; 2]; 5] = [[1, 1], [3, 1], [5, 2], [6, 5], [10, 10]];
 
-fn main() {
-    let repeats: usize = std::env::args().nth(1).map_or(3, |r| r.parse().expect("a number of repeats"));
-    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
-    one.install(|| bench(repeats));
+/// Largest exponent.
+const MUST: f64 = 1.1;
+
+/// How the cost of a step of the grain engine grows with the number of grains.
+#[derive(Parser)]
+struct Args {
+    /// Repeats; the best of each size counts.
+    #[arg(long, default_value_t = 3)]
+    repeats: usize,
+    /// Given by cargo.
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let args = Args::parse();
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    one.install(|| bench(args.repeats));
+    Ok(())
 }
 
 fn bench(repeats: usize) {
@@ -44,11 +59,11 @@ fn bench(repeats: usize) {
             for i in 0..steps {
                 dem.advance(&mut state, Tick::at(i, dt), &FIELD);
             }
-            let start = seconds();
+            let clock = Clock::start();
             for i in steps..2 * steps {
                 dem.advance(&mut state, Tick::at(i, dt), &FIELD);
             }
-            best[k] = best[k].min((seconds() - start) / steps as f64);
+            best[k] = best[k].min(clock.lap().seconds(1) / steps as f64);
             contacts[k] = state.contact_count() as f64 / grains.len() as f64;
         }
     }
@@ -57,15 +72,7 @@ fn bench(repeats: usize) {
         println!("{n:>8} {:>16.3} {:>14.1} {:>8}", contacts[k], 1e9 * best[k] / n as f64, steps(n));
         points.push([(n as f64).ln(), best[k].ln()]);
     }
-    println!("exponent of cost per step against N: {:.3} (must be at most 1.1)", slope(&points));
-}
-
-/// Time that this thread spent on a processor, where the system tells; else time on the wall, s.
-fn seconds() -> f64 {
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = told.and_then(|t| t.split_whitespace().next()?.parse::<f64>().ok());
-    let wall = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |d| d.as_secs_f64());
-    nanoseconds.map_or_else(wall, |n| 1e-9 * n)
+    println!("exponent of cost per step against N: {:.3} (must be at most {MUST})", slope(&points));
 }
 
 /// Equal work at every size.

@@ -1,6 +1,6 @@
-//! Time on the processor, which other jobs on the machine disturb least, and time on the wall.
+//! What the benchmarks share: time on the processor, which other jobs on the machine disturb least, time on the
+//! wall, and the median.
 
-use std::fs;
 use std::time::Instant;
 
 /// Started when made.
@@ -47,13 +47,22 @@ impl Lap {
     }
 }
 
-/// Time on a processor of all threads of this process, s.
+/// Time on a processor of all threads of this process, s. Not from `/proc`: what stands there moves on once in
+/// some 4 ms, and a solve takes one.
+#[cfg(unix)]
 fn processor() -> Option<f64> {
-    let mut sum = 0.0;
-    for task in fs::read_dir("/proc/self/task").ok()? {
-        let text = fs::read_to_string(task.ok()?.path().join("schedstat")).ok()?;
-        let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;
-        sum += nanoseconds * 1e-9;
-    }
-    Some(sum)
+    let t = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    Some(t.tv_sec as f64 + 1e-9 * t.tv_nsec as f64)
+}
+
+#[cfg(not(unix))]
+fn processor() -> Option<f64> {
+    None
+}
+
+/// The middle of `x`.
+pub fn median(mut x: Vec<f64>) -> f64 {
+    x.sort_by(f64::total_cmp);
+    let n = x.len();
+    if n == 0 { f64::NAN } else { 0.5 * (x[(n - 1) / 2] + x[n / 2]) }
 }
