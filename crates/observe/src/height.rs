@@ -46,14 +46,22 @@ pub fn lower_edge(view: &View, of: Selection, part: f64) -> f64 {
     edge_quantile(view, of, part, -1.0)
 }
 
-/// Solids fractions of slabs of thickness `layer` (m) from the floor up to above the highest grain.
+/// Slabs beyond which grains are on their way out: a guard will stop such a run, if it is given the time.
+const MOST: f64 = 1e6;
+
+/// Solids fractions of slabs of thickness `layer` (m) from the floor up to above the highest grain; none if it is a
+/// million slabs away.
 #[must_use]
 pub fn slabs(view: &View, of: Selection, layer: f64) -> Vec<f64> {
     let g = view.grains;
     let floor = view.floor_height();
     let top =
         (0..g.len()).filter(|&k| of.takes(g, k)).map(|k| g.position[k].z + g.radius[k]).fold(floor, f64::max);
-    let count = ((top - floor) / layer).floor() as usize + 2;
+    let layers = ((top - floor) / layer).floor();
+    if layers > MOST {
+        return vec![];
+    }
+    let count = layers as usize + 2;
     let d = Direction { axis: 2, origin: floor, width: layer, count, periodic: false };
     let grid = Grid::new(view.cell, vec![d]);
     let mut nu = vec![0.0; count];
@@ -83,6 +91,8 @@ fn crossing(nu: &[f64], threshold: f64, layer: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::synthetic::Stage;
+    use brazilnut_base::{Vec3, vec3};
 
     #[test]
     fn quantile_of_equal_weights() {
@@ -91,6 +101,17 @@ mod tests {
         assert!((quantile(&mut p, 0.95) - 95.5).abs() < 1e-12);
         assert_eq!(quantile(&mut p, 0.0), 1.0);
         assert!(quantile(&mut [], 0.5).is_nan());
+    }
+
+    #[test]
+    fn a_grain_that_was_thrown_out_of_sight_costs_no_memory() {
+        let mut stage = Stage::new(Vec3::ONE, "walls");
+        stage.add(vec3(0.5, 0.5, 0.1), 0.05);
+        assert!(by_solids_fraction(&stage.view(), Selection::All, 1e-6, 0.1) > 0.0);
+        for far in [1e15, f64::INFINITY] {
+            stage.grains.position[0].z = far;
+            assert_eq!(by_solids_fraction(&stage.view(), Selection::All, 1e-6, 0.1), 0.0);
+        }
     }
 
     #[test]

@@ -4,16 +4,43 @@ use crate::progress::duration;
 use crate::sheet::si;
 use brazilnut_base::Side;
 use brazilnut_case::build::Built;
+use brazilnut_coupling::{CouplingSpec, Method};
 use brazilnut_fluid::{Advection, Diffusion, FluidSpec, Scheme, step_limits};
 use brazilnut_report::sheet::Sheet;
 use brazilnut_report::text::significant;
+use brazilnut_sim::plan::Medium;
 
-/// Seconds per cell and step assumed for the estimate, of one core of a current machine.
-const PER_CELL: f64 = 15e-9;
+/// Seconds per cell and step assumed for the estimate, of one core of a current machine (docs/performance.md).
+const PER_CELL: f64 = 20e-9;
+
+/// Seconds per grain and fluid step that averaging grains onto a grid takes.
+const PER_AVERAGED_GRAIN: f64 = 1.3e-6;
 
 /// Numbers per cell that a flow and its solver keep: velocity, pressure, the
 /// remembered rates, the prediction, and the pressure equation, with ghosts.
 const WORDS: f64 = 16.0;
+
+/// Seconds that a step of the flow is estimated to take on one core, with what joins it to the grains but without
+/// these; the multiples are those measured for the tilting bed (docs/performance.md).
+pub fn step_time(b: &Built) -> f64 {
+    let (coupling, spec) = match &b.plan.medium {
+        Medium::Coupled(coupling, spec) => (Some(coupling), spec),
+        Medium::Fluid(spec) => (None, spec),
+        _ => return 0.0,
+    };
+    let flow = PER_CELL * spec.grid.count() as f64;
+    match coupling.map(|c| &**c) {
+        Some(CouplingSpec::Averaged(_)) => flow + PER_AVERAGED_GRAIN * b.plan.start.len() as f64,
+        Some(CouplingSpec::Resolved(r)) => {
+            flow * match r.method {
+                Method::Springs(_) => 1.9,
+                Method::Template => 3.0,
+                Method::Forcing(_) => 7.9,
+            }
+        }
+        _ => flow,
+    }
+}
 
 /// Adds grid, scheme and step limits of the flow, if the run has one.
 pub fn flow(s: &mut Sheet, b: &Built) {
@@ -59,7 +86,7 @@ pub fn flow(s: &mut Sheet, b: &Built) {
     if b.plan.start.is_empty() {
         let work = cells * clock.end as f64;
         s.row("cell-steps", format!("{work:.2e}"), "");
-        s.row("run time", duration(work * PER_CELL), "estimated, on one core");
+        s.row("run time", duration(step_time(b) * clock.end as f64), "estimated, on one core");
     }
 }
 

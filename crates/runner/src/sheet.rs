@@ -213,7 +213,8 @@ fn cost(s: &mut Sheet, b: &Built) {
     s.row("memory", si(n * (400.0 + 3.0 * 64.0), "B"), "estimated");
     let work = n * b.plan.clock.end as f64 * b.plan.clock.substeps as f64;
     s.row("particle-steps", format!("{work:.2e}"), "");
-    s.row("run time", duration(work / SPEED), "estimated, without settling");
+    let flow = flow_sheet::step_time(b) * b.plan.clock.end as f64;
+    s.row("run time", duration(work / SPEED + flow), "estimated, on one core, without settling");
 }
 
 /// The sheet of a case as text, whatever its rung.

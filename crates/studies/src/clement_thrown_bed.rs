@@ -16,16 +16,45 @@ const CASE: (&str, &str) =
 /// Materials of the two beds with their densities, kg/m³.
 const MATERIALS: [(&str, f64); 2] = [("glass", 2500.0), ("bronze", 8900.0)];
 
-/// A rung as it is run: what it lays over the case, in full and in short.
+/// A rung as it is run: what it is called, and what it lays over the case.
 struct Rung {
+    name: &'static str,
     model: &'static str,
     short: bool,
-    overrides: &'static [&'static str],
+    overrides: &'static [&'static [&'static str]],
 }
 
-const RUNGS: [Rung; 2] = [
-    Rung { model: "navier-stokes", short: true, overrides: &[] },
-    Rung { model: "fluid-springs", short: false, overrides: &RESOLVED },
+/// `navier-stokes` and the springs of C_s = 0.5 first: they are what the source recommends (Fig. 3.2).
+const RUNGS: [Rung; 8] = [
+    Rung { name: "navier-stokes", model: "navier-stokes", short: true, overrides: &[] },
+    Rung { name: "fluid-springs", model: "fluid-springs", short: false, overrides: &[&RESOLVED] },
+    Rung { name: "particle-template", model: "particle-template", short: false, overrides: &[&RESOLVED] },
+    Rung { name: "direct-forcing", model: "direct-forcing", short: false, overrides: &[&RESOLVED] },
+    Rung {
+        name: "C_s 0.1",
+        model: "fluid-springs",
+        short: false,
+        overrides: &[&RESOLVED, &["fluid-springs.relaxation_time=2.9e-3 s"]],
+    },
+    Rung {
+        name: "C_s 0.2",
+        model: "fluid-springs",
+        short: false,
+        overrides: &[&RESOLVED, &["fluid-springs.relaxation_time=7.2e-4 s"]],
+    },
+    // Stronger springs bear shorter steps only.
+    Rung {
+        name: "C_s 1",
+        model: "fluid-springs",
+        short: false,
+        overrides: &[&RESOLVED, &["fluid-springs.relaxation_time=2.9e-5 s", "time.dt=2.5e-5 s"]],
+    },
+    Rung {
+        name: "C_s 2",
+        model: "fluid-springs",
+        short: false,
+        overrides: &[&RESOLVED, &["fluid-springs.relaxation_time=7.2e-6 s", "time.dt=6.25e-6 s"]],
+    },
 ];
 
 /// The step of the thesis's later chapters, less clear fluid above the bed, two cycles after the first.
@@ -47,7 +76,7 @@ const QUICK: [&str; 4] = [
 
 /// Curves of one run, averaged over cycles.
 struct Run {
-    model: &'static str,
+    name: &'static str,
     pressure: PhaseCurve,
     gap: PhaseCurve,
     /// The modified Kroll plug as high and as porous as this bed at rest.
@@ -57,22 +86,26 @@ struct Run {
 impl Run {
     fn new((material, density): (&str, f64), rung: &Rung, request: &Request) -> Result<Self, Failure> {
         let mut overrides = vec![format!("model={}", rung.model), format!("grains.0.material={material}")];
-        overrides.extend(rung.overrides.iter().map(|s| (*s).to_string()));
+        overrides.extend(rung.overrides.iter().copied().flatten().map(|s| (*s).to_string()));
         if request.quick {
             overrides.extend(QUICK.map(String::from));
         }
-        let folder = request.out.join(format!("{material}-{}", rung.model));
+        let folder = request.out.join(format!("{material}-{}", rung.name));
         let run = Done::new(CASE, &overrides, &folder, !request.quick)?;
         let bed = run.table("bed-by-phase")?;
         let curve = |name: &str| PhaseCurve::read(&bed, name);
         // The bed lies on the floor at phase 0: what it measures there is its state at rest.
         let at_rest = |name: &str| curve(name).points.first().map_or(f64::NAN, |p| p[1]);
         Ok(Self {
-            model: rung.model,
+            name: rung.name,
             pressure: PhaseCurve::read(&run.table("base-pressure-by-phase")?, "fluid_mean"),
             gap: curve("gap_percentile").above_least(),
             plug: plug(density, at_rest("height_threshold"), 1.0 - at_rest("bulk_solids_fraction"))?,
         })
+    }
+
+    fn over(&self) -> f64 {
+        largest(&self.pressure.points)[1]
     }
 
     /// Largest base pressure, least base pressure of the first half of the cycle and largest gap over those
@@ -81,7 +114,7 @@ impl Run {
         let peaks = &self.plug.peaks;
         let thrown: Vec<[f64; 2]> = self.pressure.points.iter().copied().filter(|p| p[0] < 180.0).collect();
         [
-            ("overpressure", largest(&self.pressure.points)[1] / peaks.over.value),
+            ("overpressure", self.over() / peaks.over.value),
             ("underpressure", least(&thrown)[1] / peaks.under.value),
             ("gap", largest(&self.gap.points)[1] / peaks.gap.value),
         ]
@@ -110,7 +143,33 @@ fn plug(grain_density: f64, height: f64, porosity: f64) -> Result<Plug, Failure>
     solve(&spec).map_err(|refusals| Failure::Usage(format!("no plug like this bed: {refusals:?}")))
 }
 
-/// The quantities and plots. Full form: C_s = 0.5, both materials.
+/// What is judged of one material's runs.
+fn judged(material: &str, runs: &[Run]) -> Vec<Computed> {
+    let mut list = vec![];
+    for r in runs {
+        let ratios = r.ratios();
+        match r.name {
+            // The source only says that it fails.
+            "particle-template" => {
+                let worst = ratios.iter().map(|(_, x)| (x - 1.0).abs()).fold(0.0, f64::max);
+                let name = format!("{material}, {}: largest deviation from modified Kroll's", r.name);
+                list.push(Computed::new(name, worst));
+            }
+            // Their plug would be another one: against the springs of 0.5.
+            name if name.starts_with("C_s") => {
+                let half = runs.iter().find(|r| r.name == "fluid-springs").map_or(f64::NAN, Run::over);
+                let name = format!("{material}, {name}: overpressure over that at C_s 0.5");
+                list.push(Computed::new(name, r.over() / half));
+            }
+            name => list.extend(ratios.map(|(what, x)| {
+                Computed::new(format!("{material}, {name}: {what} over modified Kroll's"), x)
+            })),
+        }
+    }
+    list
+}
+
+/// The quantities and plots. Full form: all rungs of Fig. 3.2 and strengths of Fig. 3.1, both materials.
 ///
 /// # Errors
 /// Whatever a run fails with.
@@ -123,17 +182,15 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
             eprintln!(
                 "  {} {}: bed {:.2} mm, porosity {:.3}; modified Kroll {:.1}, {:.1} Pa, gap {:.3} mm",
                 material.0,
-                r.model,
+                r.name,
                 1e3 * r.plug.spec.height,
                 r.plug.spec.porosity,
                 r.plug.peaks.over.value,
                 r.plug.peaks.under.value,
                 1e3 * r.plug.peaks.gap.value
             );
-            computed.extend(r.ratios().map(|(what, x)| {
-                Computed::new(format!("{}, {}: {what} over modified Kroll's", material.0, r.model), x)
-            }));
         }
+        computed.extend(judged(material.0, &runs));
         figures.extend(plots(material.0, &runs));
     }
     Ok(Ran { computed, figures })
@@ -144,10 +201,9 @@ fn plots(material: &str, runs: &[Run]) -> [Figure; 2] {
                   unit: &str,
                   curve: fn(&Run) -> &PhaseCurve,
                   plug: fn(&Run) -> Vec<[f64; 2]>| {
-        let own = runs.iter().map(|r| Curve {
-            error: curve(r).error.clone(),
-            ..Curve::line(r.model, curve(r).points.clone())
-        });
+        let own = runs
+            .iter()
+            .map(|r| Curve { error: curve(r).error.clone(), ..Curve::line(r.name, curve(r).points.clone()) });
         let kroll = runs.first().map(|r| Curve::line("modified Kroll", plug(r)).styled(Style::Dashed));
         Figure {
             title: format!("{title}, {material}"),

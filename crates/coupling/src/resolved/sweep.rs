@@ -280,7 +280,12 @@ impl<K: Kernel<W>, const W: usize> Task for Push<'_, '_, K, W> {
         let mut sum = WideTally::default();
         for (batch, slip) in placed.batches().iter().zip(self.slips) {
             let arms = placed.arms(batch);
-            let impulse = times(-self.grip, slip);
+            let mut impulse = ZERO;
+            for c in 0..3 {
+                for l in 0..LANES {
+                    impulse[c][l] = -self.grip * batch.grip[l] * slip[c][l];
+                }
+            }
             sum.give(&arms, &impulse);
             placed.reach.write(batch, &arms, &times(self.per_mass, &impulse), self.window);
         }

@@ -94,6 +94,8 @@ pub struct Batch {
     pub share: [f64; LANES],
     /// One for each tracer.
     pub mask: [f64; LANES],
+    /// Cells that each controls, at most one: less where tracers crowd at the centre.
+    pub grip: [f64; LANES],
 }
 
 /// Height of a part in planes of the grid.
@@ -181,19 +183,18 @@ pub fn spacing(grid: &Grid) -> f64 {
 }
 
 impl Template {
-    fn new(grid: &Grid, mut points: Vec<(Vec3, f64)>, layout: Layout) -> Self {
+    fn new(grid: &Grid, mut points: Vec<Tracer>, layout: Layout) -> Self {
         let [line, middle, slow] = grid.memory_order();
         let key = |x: &Vec3| [x[slow], x[middle], x[line]];
-        points.sort_by(|a, b| key(&a.0).partial_cmp(&key(&b.0)).unwrap_or(std::cmp::Ordering::Equal));
-        let total: f64 = points.iter().map(|p| p.1).sum();
-        let share: Vec<f64> = points.iter().map(|p| p.1 / total).collect();
-        let points: Vec<Vec3> = points.into_iter().map(|p| p.0).collect();
+        points.sort_by(|a, b| key(&a.at).partial_cmp(&key(&b.at)).unwrap_or(std::cmp::Ordering::Equal));
+        let total: f64 = points.iter().map(|p| p.share).sum();
+        points.iter_mut().for_each(|p| p.share /= total);
         let lattice = layout == Layout::Lattice;
         // Whole planes of a lattice, two to a part.
         let span = if lattice { PART_SPAN - 0.5 } else { PART_SPAN } * grid.spacing[slow];
         let mut parts: Vec<Part> = vec![];
         let mut low = f64::NEG_INFINITY;
-        for (k, x) in points.iter().enumerate() {
+        for (k, Tracer { at: x, .. }) in points.iter().enumerate() {
             if x[slow] - low >= span {
                 low = x[slow];
                 parts.push(Part { points: [k, k], batches: [0, 0], low: *x, high: *x });
@@ -208,11 +209,21 @@ impl Template {
         for part in &mut parts {
             part.batches[0] = batches.len();
             let range = part.points[0]..part.points[1];
-            batches.extend(batch(grid, lattice, &points[range.clone()], &share[range]));
+            batches.extend(batch(grid, lattice, &points[range]));
             part.batches[1] = batches.len();
         }
-        Self { points, share, parts, batches, lattice }
+        let share = points.iter().map(|p| p.share).collect();
+        Self { points: points.into_iter().map(|p| p.at).collect(), share, parts, batches, lattice }
     }
+}
+
+/// A tracer of a body of one spacing a unit.
+struct Tracer {
+    at: Vec3,
+    /// Volume that it stands for, in any unit.
+    share: f64,
+    /// Cells that it controls.
+    grip: f64,
 }
 
 /// Lattice points at one distance from the centre.
@@ -261,12 +272,16 @@ fn count(shells: &[Shell], cells: f64) -> usize {
     (0..shells.len()).min_by(|a, b| off(a).total_cmp(&off(b))).map_or(0, |k| k + 1)
 }
 
-fn lattice_points(shells: &[Shell], count: usize, _: &Grid) -> Vec<(Vec3, f64)> {
-    shells[..count].iter().flat_map(|s| s.points.iter().map(|x| (*x, 1.0))).collect()
+fn lattice_points(shells: &[Shell], count: usize, _: &Grid) -> Vec<Tracer> {
+    let all = shells[..count].iter().flat_map(|s| &s.points);
+    all.map(|x| Tracer { at: *x, share: 1.0, grip: 1.0 }).collect()
 }
 
 /// Points on shells of a body of `radius` spacings, with the volume (2-D: area) that each stands for.
-fn shell_points(grid: &Grid, radius: f64, retraction: f64) -> Vec<(Vec3, f64)> {
+///
+/// The innermost shell crowds at sizes between whole ones, by up to six points in one cell: the slip would be removed
+/// six times over, and sweeps would pump it up. Its points together control the cells that they fill.
+fn shell_points(grid: &Grid, radius: f64, retraction: f64) -> Vec<Tracer> {
     let h = spacing(grid);
     let flat = (0..3).find(|&a| grid.sides[a] == Side::Flat);
     let power = if flat.is_some() { 2 } else { 3 };
@@ -281,8 +296,10 @@ fn shell_points(grid: &Grid, radius: f64, retraction: f64) -> Vec<(Vec3, f64)> {
             Some(axis) => ring(r, axis),
             None => cubed_sphere(r),
         };
-        let share = volume / directions.len() as f64;
-        points.extend(directions.into_iter().map(|n| (h * r * n, share)));
+        let n = directions.len() as f64;
+        let ball = if flat.is_some() { std::f64::consts::PI } else { 4.0 / 3.0 * std::f64::consts::PI };
+        let grip = if innermost { (ball * f64::powi(r + 0.5, power) / n).min(1.0) } else { 1.0 };
+        points.extend(directions.into_iter().map(|d| Tracer { at: h * r * d, share: volume / n, grip }));
         if innermost {
             return points;
         }
@@ -323,11 +340,11 @@ fn cubed_sphere(r: f64) -> Vec<Vec3> {
 }
 
 /// The sorted points of a part in batches; on a lattice each is a run of neighbours along the contiguous axis.
-fn batch(grid: &Grid, lattice: bool, points: &[Vec3], share: &[f64]) -> Vec<Batch> {
+fn batch(grid: &Grid, lattice: bool, points: &[Tracer]) -> Vec<Batch> {
     let order = grid.memory_order();
     let h = Vec3::from_array(grid.spacing);
     let mut batches: Vec<Batch> = vec![];
-    for (x, share) in points.iter().zip(share) {
+    for Tracer { at: x, share, grip } in points {
         let at = if lattice { order.map(|a| (x[a] / h[a]).round() as i16) } else { [0; 3] };
         let joins = |b: &Batch| {
             let next = at[1..] == b.at[1..] && at[0] == b.at[0] + b.len as i16;
@@ -340,13 +357,14 @@ fn batch(grid: &Grid, lattice: bool, points: &[Vec3], share: &[f64]) -> Vec<Batc
                 arm: [[0.0; LANES]; 3],
                 share: [0.0; LANES],
                 mask: [0.0; LANES],
+                grip: [0.0; LANES],
             });
         }
         if let Some(b) = batches.last_mut() {
             for c in 0..3 {
                 b.arm[c][b.len] = x[c];
             }
-            (b.share[b.len], b.mask[b.len]) = (*share, 1.0);
+            (b.share[b.len], b.mask[b.len], b.grip[b.len]) = (*share, 1.0, *grip);
             b.len += 1;
         }
     }
@@ -390,6 +408,21 @@ mod tests {
                     assert_eq!(covered, t.points.len());
                 }
             }
+        }
+    }
+
+    /// One sweep removes the slip; more than twice of it would come back larger.
+    #[test]
+    fn tracers_control_no_more_cells_than_they_fill() {
+        for k in 10..60 {
+            let r = 0.1 * f64::from(k);
+            let t = Templates::new(&cube(1.0), Body::Sphere, &[r], Layout::Shells, 0.4);
+            let (t, _) = t.fit(0);
+            let near = t.batches.iter().flat_map(|b| (0..b.len).map(move |l| (b, l)));
+            let inside = near.filter(|(b, l)| (0..3).map(|c| b.arm[c][*l].powi(2)).sum::<f64>() < 1.0);
+            let held: f64 = inside.map(|(b, l)| b.grip[l]).sum();
+            // A ball of 1.5 spacings, reached by tracers within one.
+            assert!(held < 4.0 / 3.0 * std::f64::consts::PI * 1.5_f64.powi(3), "{r}: {held}");
         }
     }
 

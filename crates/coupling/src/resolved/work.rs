@@ -126,3 +126,38 @@ fn scene<'a>(
 ) -> Scene<'a> {
     Scene { stagger, templates, schedule, grains }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use brazilnut_base::{Side, vec3};
+
+    /// Whatever the size, no slip is left larger by removing it: tracers that crowd must not remove it several times.
+    #[test]
+    fn sweeps_remove_the_slip_of_every_size() {
+        let grid = Grid::new([16; 3], [1.0; 3], [Side::Walls; 3]);
+        for r in (8..50).map(|k| 0.1 * f64::from(k)) {
+            let mut grains = Grains::default();
+            // On a face of the grid, where tracers near the centre have one number between them.
+            grains.push(0, 0, r, 1.0, 1.0, vec3(8.0, 8.5, 8.5));
+            let mut field = Faces::new(&grid);
+            for c in 0..3 {
+                // Noise, in which every way to slip is contained.
+                let mut x = 0.3 + 0.1 * c as f64;
+                for v in field.component_mut(c) {
+                    x = 3.99 * x * (1.0 - x);
+                    *v = x - 0.5;
+                }
+            }
+            let mut work =
+                TracerWork::new(&grid, Body::Sphere, &[r], Layout::Shells, 0.4, KernelName::Trilinear);
+            work.sort(&grains);
+            let mut slip = f64::INFINITY;
+            for sweep in 0..12 {
+                let left = work.force(&grains, &mut field, 1.0, 1).slip;
+                assert!(left <= slip, "{r}, sweep {sweep}: {left} of {slip}");
+                slip = left;
+            }
+        }
+    }
+}
