@@ -115,15 +115,7 @@ impl Dem {
     /// Takes up all touching contacts and what they remember.
     fn collect(&mut self, state: &DemState) {
         let slots = self.law.slots();
-        let handover = &mut self.scratch.handover;
-        handover.clear(slots, self.law.odd());
-        for lists in &state.blocks {
-            for pairs in [&lists.inside, &lists.first, &lists.big] {
-                handover.take(pairs, &state.tags, &state.rest);
-            }
-            handover.take_walls(&lists.walls, &state.tags);
-        }
-        handover.index(state.tags.len());
+        self.scratch.handover.collect(slots, self.law.odd(), &state.blocks, &state.tags, &state.rest);
     }
 }
 

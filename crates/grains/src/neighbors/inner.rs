@@ -1,6 +1,7 @@
 //! The inner list: the pairs of the outer one within a very small skin, with their memory.
 
 use super::handover::Handover;
+use super::room::{hold, settle};
 use crate::contact::Mask;
 use crate::contact::V3;
 use crate::lanes::Wide;
@@ -45,12 +46,15 @@ pub struct Spare {
 }
 
 impl Spare {
-    /// Takes a list's places and touches and leaves empty buffers.
-    pub fn swap(&mut self, from: &mut Vec<u32>, touched: &mut Vec<u8>) {
-        std::mem::swap(from, &mut self.from);
-        std::mem::swap(touched, &mut self.touched);
-        from.clear();
-        touched.clear();
+    /// Takes a list's places and touches and leaves it empty. Copied, not swapped: a short list would go on with the
+    /// room of a long one.
+    pub fn take(&mut self, from: &mut Vec<u32>, touched: &mut Vec<u8>) {
+        hold(&mut self.from, from.len());
+        self.from.clear();
+        self.from.append(from);
+        hold(&mut self.touched, touched.len());
+        self.touched.clear();
+        self.touched.append(touched);
     }
 
     /// Moves what entries remember from their old places among the first `old` to those of `new`; zero where an
@@ -70,6 +74,7 @@ impl Spare {
                 kept += 1;
             }
         }
+        hold(memory, padded * slots);
         memory.resize(padded * slots, 0.0);
         for p in new.len()..padded {
             clear(memory, p, slots);
@@ -108,7 +113,7 @@ impl Prune<'_> {
     /// Makes the inner list of `pairs` anew.
     #[inline(always)]
     pub fn run<R: Wide>(&self, pairs: &mut Pairs, spare: &mut Spare) {
-        spare.swap(&mut pairs.from, &mut pairs.touched);
+        spare.take(&mut pairs.from, &mut pairs.touched);
         let old = if matches!(self.memory, Memory::Kept) { pairs.len } else { 0 };
         pairs.i.clear();
         pairs.j.clear();
@@ -143,6 +148,9 @@ impl Prune<'_> {
             pairs.i.push(grains);
             pairs.j.push(grains + 1);
         }
+        for list in [&mut pairs.i, &mut pairs.j, &mut pairs.from] {
+            settle(list);
+        }
         self.classify(pairs);
         self.carry(pairs, spare, old);
     }
@@ -168,6 +176,7 @@ impl Prune<'_> {
             Memory::Kept => spare.carry(old, &pairs.from, &mut pairs.memory, &mut pairs.touched, slots),
             Memory::Handed(handover) => {
                 pairs.memory.clear();
+                hold(&mut pairs.memory, pairs.i.len() * slots);
                 pairs.memory.resize(pairs.i.len() * slots, 0.0);
                 for p in 0..pairs.len {
                     let (i, j) = (pairs.i[p] as usize, (pairs.j[p] & INDEX) as usize);

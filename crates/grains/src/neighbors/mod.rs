@@ -10,6 +10,7 @@ pub mod handover;
 pub mod inner;
 pub mod order;
 pub mod outer;
+pub mod room;
 pub mod walls;
 
 use serde::{Deserialize, Serialize};

@@ -2,6 +2,7 @@
 
 use super::all::Columns;
 use super::grid::{FORWARD, Grid};
+use super::room::settle;
 use crate::lanes::Wide;
 use crate::packed::{DUMMIES, INDEX_BITS, Row, image_code};
 use crate::state::{BATCH, Lists, Pairs};
@@ -85,6 +86,8 @@ impl Pairs {
         while !self.outer_i.len().is_multiple_of(BATCH) {
             self.push(grains, grains + 1, 0);
         }
+        settle(&mut self.outer_i);
+        settle(&mut self.outer_j);
     }
 }
 

@@ -23,7 +23,7 @@ impl Prune<'_> {
     /// Makes the inner list of wall contacts anew.
     pub fn walls(&self, list: &mut WallPairs, walls: &Walls, spare: &mut Spare) {
         let old = if matches!(self.memory, Memory::Kept) { list.inner.len() } else { 0 };
-        spare.swap(&mut list.from, &mut list.touched);
+        spare.take(&mut list.from, &mut list.touched);
         list.inner.clear();
         list.class.clear();
         for (k, &(row, wall, feature)) in list.outer.iter().enumerate() {
