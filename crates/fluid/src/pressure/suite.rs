@@ -77,7 +77,7 @@ fn solves_every_mix_of_sides_to_rounding() {
             for a in [Walls, Periodic] {
                 for b in [Walls, Periodic, Flat] {
                     for c in [Walls, Periodic] {
-                        for cells in [[10, 9, 14], [17, 12, 5], [24, 16, 33]] {
+                        for cells in [[10, 9, 14], [17, 12, 5], [24, 16, 33], [5, 2, 3], [9, 7, 2]] {
                             let n = [cells[0], if b == Flat { 1 } else { cells[1] }, cells[2]];
                             let grid = Grid::new(n, [0.5, 0.7, 0.4], [a, b, c]);
                             let (worst, mean) = residual(&grid, [false; 2], path, transforms);
