@@ -2,7 +2,7 @@
 //! `docs/resolved-accuracy.md`.
 //!
 //! `cargo run --release -p brazilnut-coupling --example resolved_accuracy -- TABLES [POINTS...]`, TABLES being one
-//! or more of `creep` (Re 1: an hour's work from five points on), `stream`, `settle`, `spin`, `release`, separated by
+//! or more of `creep` (Re 1: ten minutes for five points, hours beyond), `stream`, `settle`, `spin`, `release`, separated by
 //! commas; POINTS are 3 and 5 by default.
 //! Dense arrays have an example of their own, `dense_arrays`.
 

@@ -3,7 +3,7 @@
 pub(crate) mod conjugate_gradient;
 pub(crate) mod fft;
 pub(crate) mod library;
-pub mod panel;
+pub(crate) mod panel;
 pub(crate) mod poisson;
 pub(crate) mod rows;
 #[cfg(test)]

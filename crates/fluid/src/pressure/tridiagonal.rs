@@ -125,8 +125,15 @@ impl Lines {
     ) {
         let n = self.n;
         let smallest = b.as_flattened().iter().copied().fold(f64::INFINITY, f64::min);
-        let settle = settled_after(smallest).min(n - 1).max(1);
+        let settle = settled_after(smallest).min(n.saturating_sub(1)).max(1);
         let [low, high] = self.ends.map(End::diagonal);
+        if n == 1 {
+            for (g, b) in g[0].as_flattened_mut().iter_mut().zip(b.as_flattened()) {
+                let d = b + low + high;
+                *g *= if d == 0.0 { 0.0 } else { scale / d };
+            }
+            return;
+        }
         let s = [scale; W];
         let one = [1.0; W];
         let (mut factor, mut y) = ([[0.0; W]; G], [[0.0; W]; G]);

@@ -1,6 +1,6 @@
 //! Room of lists: enough for their changes, and not twice as much.
 
-/// Makes room for `len` entries, and an eighth for lists that grow a little.
+/// Makes room for `len` entries, and a tenth for lists that grow a little.
 pub fn hold<T>(list: &mut Vec<T>, len: usize) {
     if list.capacity() < len {
         list.reserve_exact(len + len / SLACK - list.len());
