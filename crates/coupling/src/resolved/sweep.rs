@@ -140,6 +140,18 @@ fn difference(a: &Wide, b: &Wide, mask: &[f64; LANES]) -> Wide {
     out
 }
 
+/// The impulse against the slip, for tracers that control `own` cells each.
+#[inline(always)]
+fn pull(grip: f64, own: &[f64; LANES], slip: &Wide) -> Wide {
+    let mut out = ZERO;
+    for c in 0..3 {
+        for l in 0..LANES {
+            out[c][l] = -grip * own[l] * slip[c][l];
+        }
+    }
+    out
+}
+
 /// s v in every lane.
 #[inline(always)]
 fn times(s: f64, v: &Wide) -> Wide {
@@ -182,7 +194,7 @@ impl<'a> Scene<'a> {
         });
     }
 
-    /// Gives the fluid the impulse −`grip(grain)` slip at every tracer and adds it to `tallies`.
+    /// Gives the fluid the impulse −`grip(grain)` slip, times the cells that a tracer controls, and adds it to `tallies`.
     ///
     /// `per_mass` is 1/(rho cell volume): what an impulse does to the velocity of a face.
     pub fn push<const W: usize>(
@@ -280,12 +292,7 @@ impl<K: Kernel<W>, const W: usize> Task for Push<'_, '_, K, W> {
         let mut sum = WideTally::default();
         for (batch, slip) in placed.batches().iter().zip(self.slips) {
             let arms = placed.arms(batch);
-            let mut impulse = ZERO;
-            for c in 0..3 {
-                for l in 0..LANES {
-                    impulse[c][l] = -self.grip * batch.grip[l] * slip[c][l];
-                }
-            }
+            let impulse = pull(self.grip, &batch.grip, slip);
             sum.give(&arms, &impulse);
             placed.reach.write(batch, &arms, &times(self.per_mass, &impulse), self.window);
         }
@@ -313,7 +320,7 @@ impl<K: Kernel<W>, const W: usize> Task for SlipAndPush<'_, '_, K, W> {
             let arms = placed.arms(batch);
             let wanted = placed.velocities(&arms);
             let slip = difference(&placed.reach.read(batch, &arms, self.before), &wanted, &batch.mask);
-            let impulse = times(-self.grip, &slip);
+            let impulse = pull(self.grip, &batch.grip, &slip);
             sum.give(&arms, &impulse);
             sum.leak(&slip, &wanted, &batch.mask);
             placed.reach.write(batch, &arms, &times(self.per_mass, &impulse), self.window);
