@@ -185,10 +185,10 @@ mod tests {
     fn speed_stream_and_sign_of_a_pair_of_rolls() {
         let f = rolls(1.0, 0.5);
         assert!((f.speed() - 8.0 / 6.0).abs() < 1e-15 && (f.along_the_walls() + 2.0).abs() < 1e-15);
-        // Between 0.05 (-2) and 0.15 (+1).
         // Columns 1 to 4 over all, each counted twice: 1 over 8/6.
         assert!((f.middle_over_walls() - 0.75).abs() < 1e-15);
         assert!((f.in_the_middle() - 1.0).abs() < 1e-15);
+        // Between 0.05 (-2) and 0.15 (+1).
         assert!((f.turning(1) - (0.05 + 0.1 * 2.0 / 3.0)).abs() < 1e-15 && f.turning(2).is_nan());
         assert_eq!(f.speeds().len(), 6);
     }

@@ -75,8 +75,8 @@ impl TracerWork {
         self.add_up(grains)
     }
 
-    /// Forcing: the slip in `field` is removed `sweeps` times. Returns the sum over all grains;
-    /// its leak is the slip before the first sweep.
+    /// Forcing: the slip in `field` is removed `sweeps` times. Returns the sum over all grains
+    /// and sweeps, of the slip before each too.
     pub fn force(&mut self, grains: &Grains, field: &mut Faces, density: f64, sweeps: u32) -> Tally {
         let cell_mass = density * self.cell_volume;
         let scene = scene(&self.stagger, &self.templates, &self.schedule, grains);

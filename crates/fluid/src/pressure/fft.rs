@@ -63,7 +63,7 @@ fn root(k: usize, n: usize) -> [f64; 2] {
 /// Factors of `n` in the order in which the stages of a forward transform run.
 ///
 /// The last is at most five: its butterflies are worked on in pairs, whose numbers should fit the registers. The first
-/// is at most eight. Primes beyond five stand between. At least two.
+/// is at most eight. Primes beyond five stand between. There are at least two.
 fn factors(mut n: usize) -> Vec<usize> {
     let mut take = |r: usize| {
         let divides = n.is_multiple_of(r);
