@@ -1,7 +1,7 @@
 //! The only loop over contacts of pairs, generic in the law and the lane type.
 
 use super::law::{MAX_SLOTS, Touch};
-use super::pair::{Law, energy};
+use super::pair::{Answer, Law, energy};
 use super::real::{Mask, Real, V3};
 use crate::lanes::{Adds, Wide};
 use crate::packed::{Couple, Force, INDEX, INDEX_BITS, Row, Shifts, Spin};
@@ -99,20 +99,25 @@ pub(super) fn begins<R: Real>(touched: &mut [u8], p: usize, touching: R::Mask) -
     u64::from(begun.count_ones())
 }
 
-/// Zero where nothing touches; what the springs still held goes into the tally.
+/// Counts the losses of contacts: what `answer` lost where they touch, and elsewhere what the springs still held when
+/// they remembered `old`, of which `new` keeps nothing.
 #[inline(always)]
-pub(super) fn forget<L: Law, R: Wide>(
+pub(super) fn account<L: Law, R: Wide>(
     law: &L::Lanes<R>,
+    answer: &Answer<R>,
     old: &[R; MAX_SLOTS],
     new: &mut [R; MAX_SLOTS],
     touching: R::Mask,
     counted: &mut Tally,
     p: usize,
 ) {
+    for k in (0..energy::KINDS).filter(|k| L::LOSSES >> k & 1 == 1) {
+        let elsewhere = if k == energy::LATCHED { L::released(law, old) } else { R::zero() };
+        tally(&mut counted.energy[k], p, R::pick(touching, answer.energy[k], elsewhere));
+    }
     for s in 0..L::SLOTS {
         new[s] = new[s].keep(touching);
     }
-    tally(&mut counted.energy[energy::LATCHED], p, L::released(law, old).keep(!touching));
 }
 
 /// Pairs between asking for a row and reading it: a memory access, in time that batches take.
@@ -166,9 +171,8 @@ pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<
         if bits == 0 {
             if L::SLOTS > 0 {
                 let old = recall::<R>(job.memory, p, L::SLOTS);
-                let mut new = old;
-                forget::<L, R>(&law, &old, &mut new, touching, counted, p);
-                remember(&new, job.memory, p, L::SLOTS);
+                tally(&mut counted.energy[energy::LATCHED], p, L::released(&law, &old));
+                remember(&[R::zero(); MAX_SLOTS], job.memory, p, L::SLOTS);
             }
             p = q;
             continue;
@@ -176,13 +180,14 @@ pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<
 
         let distance = square.sqrt();
         let spins = if SPINS || L::RADIUS { R::spin_sum(job.spins, i, j) } else { [R::zero(); 4] };
-        let [per_distance, per_reach, mass, radius] = if L::RADIUS {
-            inverse([distance, reach, row[7], spins[3]])
+        // Two divisions, neither of which waits for the root.
+        let n = d * (distance * (R::splat(1.0) / square));
+        let [per_reach, mass, radius] = if L::RADIUS {
+            inverse([reach, row[7], spins[3]])
         } else {
-            let [a, b, c] = inverse([distance, reach, row[7]]);
-            [a, b, c, R::zero()]
+            let [a, b] = inverse([reach, row[7]]);
+            [a, b, R::zero()]
         };
-        let n = d * per_distance;
         let v = V3::new(row[4], row[5], row[6]);
         let closing = v.dot(n);
         let lever = distance * per_reach;
@@ -211,13 +216,8 @@ pub fn sweep<L: Law, R: Wide, const SPINS: bool>(table: &[L], job: &mut PairJob<
         let old = recall::<R>(job.memory, p, L::SLOTS);
         let mut new = old;
         let answer = L::act(&law, &touch, &mut new);
-        if L::SLOTS > 0 {
-            forget::<L, R>(&law, &old, &mut new, touching, counted, p);
-            remember(&new, job.memory, p, L::SLOTS);
-        }
-        for k in (0..energy::KINDS).filter(|k| L::LOSSES >> k & 1 == 1) {
-            tally(&mut counted.energy[k], p, answer.energy[k].keep(touching));
-        }
+        account::<L, R>(&law, &answer, &old, &mut new, touching, counted, p);
+        remember(&new, job.memory, p, L::SLOTS);
         let largest = &mut counted.overlap[p % BATCH..];
         R::load(largest).max(touch.overlap).store(largest);
         counted.contacts += u64::from(bits.count_ones());

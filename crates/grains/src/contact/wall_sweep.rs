@@ -1,9 +1,9 @@
 //! The only loop over contacts with walls: geometry one by one, the law by lanes.
 
 use super::law::Touch;
-use super::pair::{Law, energy};
+use super::pair::Law;
 use super::real::{Mask, V3};
-use super::sweep::{Tally, begins, forget, recall, remember, tally};
+use super::sweep::{Tally, account, begins, recall, remember, tally};
 use crate::lanes::Wide;
 use crate::packed::{Couple, Force, Row, Spin};
 use crate::state::BATCH;
@@ -145,14 +145,9 @@ fn contact<L: Law, R: Wide, const SPINS: bool>(
     let old = recall::<R>(job.memory, p, L::SLOTS);
     let mut new = old;
     let answer = L::act(&law, &touch, &mut new);
-    if L::SLOTS > 0 {
-        forget::<L, R>(&law, &old, &mut new, touching, counted, p);
-        remember(&new, job.memory, p, L::SLOTS);
-    }
+    account::<L, R>(&law, &answer, &old, &mut new, touching, counted, p);
+    remember(&new, job.memory, p, L::SLOTS);
     let f = answer.force.keep(touching);
-    for k in (0..energy::KINDS).filter(|k| L::LOSSES >> k & 1 == 1) {
-        tally(&mut counted.energy[k], p, answer.energy[k].keep(touching));
-    }
     tally(&mut counted.wall_work, p, f.dot(wall_velocity) * touch.dt);
     let largest = &mut counted.overlap[p % BATCH..];
     R::load(largest).max(touch.overlap).store(largest);

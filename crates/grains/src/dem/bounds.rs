@@ -12,8 +12,12 @@ use rayon::prelude::*;
 
 /// A skin is used up a little early, so that rounding in the sums of displacements cannot matter.
 const MARGIN: f64 = 1.0 - 1e-9;
-/// Steps that an inner list should last: pruning costs less than a tenth of the steps between.
-const INNER_LASTS: f64 = 10.0;
+/// Steps that an outer list should last where grains are fast: making one costs as much as some ten steps.
+const OUTER_LASTS: f64 = 70.0;
+/// Greatest outer skin over that of slow grains: beyond, pruning costs what is saved.
+const MOST_OUTER: f64 = 3.0;
+/// Steps that an inner list should last: pruning costs about a tenth of the steps between.
+const INNER_LASTS: f64 = 6.0;
 /// Least inner skin over the largest diameter: a smaller one saves no pairs in a bed at rest.
 const LEAST_INNER: f64 = 0.003;
 /// Greatest inner skin over the outer one.
@@ -32,17 +36,23 @@ impl Dem {
         }
     }
 
-    /// The inner skin that will last some steps if grains go on as since the last outer list.
+    /// The skins that will last some steps if grains go on as since the last outer list.
     fn tune(&self, state: &mut DemState) {
         let steps = state.counts.steps - state.built;
         state.built = state.counts.steps;
-        if self.spec.search.inner_skin.is_some() || steps == 0 {
+        if steps == 0 {
             return;
         }
         let moved = approach(state.drift.low, state.drift.high, &state.wall_marks[0], &self.walls);
-        let least = LEAST_INNER * 2.0 * state.radii[1];
-        let most = MOST_INNER * state.skins.outer;
-        state.skins.inner = (INNER_LASTS * moved / steps as f64).max(least).min(most);
+        let (search, skins) = (&self.spec.search, &mut state.skins);
+        let speed = moved / steps as f64;
+        if search.skin.is_none() {
+            skins.outer = (OUTER_LASTS * speed).max(skins.slow).min(MOST_OUTER * skins.slow);
+        }
+        if search.inner_skin.is_none() {
+            let least = LEAST_INNER * 2.0 * state.radii[1];
+            skins.inner = (INNER_LASTS * speed).max(least).min(MOST_INNER * skins.outer);
+        }
     }
 
     /// Outer lists from the present positions; sorts and wraps the grains.

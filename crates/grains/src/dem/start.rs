@@ -12,7 +12,7 @@ use brazilnut_base::{Quat, Vec3, vec3};
 
 /// More materials than this have no room in a pair class.
 const MOST_MATERIALS: usize = 16;
-/// Outer skin over mean diameter: a rebuild every few hundred steps of a shaken bed.
+/// Outer skin of slow grains over mean diameter: a rebuild every few hundred steps of a shaken bed.
 const OUTER_SKIN: f64 = 0.15;
 /// First inner skin over mean diameter, before anything has moved.
 const INNER_SKIN: f64 = 0.006;
@@ -152,7 +152,7 @@ impl Dem {
         let mean = 2.0 * grains.radius.iter().sum::<f64>() / grains.len().max(1) as f64;
         let search = &self.spec.search;
         let outer = search.skin.unwrap_or(OUTER_SKIN * mean);
-        Skins { outer, inner: search.inner_skin.unwrap_or(INNER_SKIN * mean).min(outer) }
+        Skins { slow: outer, outer, inner: search.inner_skin.unwrap_or(INNER_SKIN * mean).min(outer) }
     }
 
     /// Fills `grains`, in the order of identities, with the present state.

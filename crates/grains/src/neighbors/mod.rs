@@ -18,6 +18,8 @@ use serde::{Deserialize, Serialize};
 /// Skins of the lists, m.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Skins {
+    /// Of the outer list where grains are slow.
+    pub slow: f64,
     /// Of the outer list.
     pub outer: f64,
     /// Of the inner list.

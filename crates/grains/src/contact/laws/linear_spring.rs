@@ -1,6 +1,6 @@
 //! Tangential spring and dashpot of constant stiffness behind a slider.
 
-use super::history::{Spring, mobilise, store, turned, vector};
+use super::history::{Spring, mobilise, store, vector};
 use crate::contact::law::{NormalForce, PairContext, Tangential, TangentialForce, Touch};
 use crate::contact::real::Real;
 use crate::material::damping_ratio;
@@ -72,11 +72,11 @@ impl Tangential for LinearSpring {
         normal: &NormalForce<R>,
         memory: &mut [R],
     ) -> TangentialForce<R> {
-        let held = turned(vector(memory), touch);
+        let held = vector(memory);
         let gamma = law.damping + (law.damping_squared * touch.mass).sqrt();
         let limit = law.friction * normal.load();
         let spring = Spring { stiffness: law.stiffness, compliance: law.compliance, before: law.compliance };
-        let m = mobilise(held, &spring, touch.slip, gamma, limit, touch.dt);
+        let m = mobilise(held, touch.normal, &spring, touch.slip, gamma, limit, touch.dt);
         store(memory, m.held);
         TangentialForce {
             force: m.force,

@@ -1,6 +1,6 @@
 //! Tangential spring of a Hertzian contact behind a slider.
 
-use super::history::{Spring, mobilise, store, turned, vector};
+use super::history::{Spring, mobilise, store, vector};
 use super::linear_spring::TANGENTIAL_MASS;
 use crate::contact::law::{NormalForce, PairContext, Tangential, TangentialForce, Touch};
 use crate::contact::real::Real;
@@ -67,11 +67,11 @@ impl Tangential for Mindlin {
         normal: &NormalForce<R>,
         memory: &mut [R],
     ) -> TangentialForce<R> {
-        let held = turned(vector(memory), touch);
+        let held = vector(memory);
         let spring = Spring::new(law.ratio * normal.secant, memory[COMPLIANCE]);
         let gamma = law.damping + law.damping_number * (normal.secant * touch.mass).sqrt();
         let limit = law.friction * normal.load();
-        let m = mobilise(held, &spring, touch.slip, gamma, limit, touch.dt);
+        let m = mobilise(held, touch.normal, &spring, touch.slip, gamma, limit, touch.dt);
         store(memory, m.held);
         memory[COMPLIANCE] = spring.compliance;
         TangentialForce {

@@ -1,6 +1,6 @@
 //! Resistance against rolling.
 
-use super::history::{Spring, mobilise, store, turned, vector};
+use super::history::{Spring, mobilise, store, vector};
 use crate::contact::law::{NormalForce, PairContext, Rolling, RollingCouple, Touch};
 use crate::contact::real::Real;
 use crate::spec::SpecError;
@@ -100,14 +100,14 @@ impl Rolling for RollingSpring {
         normal: &NormalForce<R>,
         memory: &mut [R],
     ) -> RollingCouple<R> {
-        let held = turned(vector(memory), touch);
+        let held = vector(memory);
         let r = touch.radius;
         let arm = law.friction * r;
         let spring = Spring::new(R::splat(2.25) * arm * arm * normal.secant, memory[COMPLIANCE]);
         let inertia = R::splat(INERTIA) * touch.mass * r * r;
         let c = R::splat(2.0 * DAMPING_RATIO) * (spring.stiffness * inertia).sqrt();
         let roll = touch.roll.reject(touch.normal);
-        let m = mobilise(held, &spring, roll, c, arm * normal.load(), touch.dt);
+        let m = mobilise(held, touch.normal, &spring, roll, c, arm * normal.load(), touch.dt);
         store(memory, m.held);
         memory[COMPLIANCE] = spring.compliance;
         RollingCouple { couple: m.force, stored: m.stored, rolled: m.slid + m.damped + m.latched }
