@@ -118,40 +118,53 @@ impl<Q: Quad> Sums<Q> {
     }
 }
 
+/// Grains that are moved before they are turned: the processor works on several at once where each takes few
+/// instructions.
+const CHUNK: usize = 16;
+
 /// Moves every grain of the block by one step.
 #[inline(always)]
 pub fn advance<S: Scheme, F: Field, Q: Quad>(m: &mut Movers<'_>, pace: &Pace, field: &F) -> Passed {
     let mut sums = Sums::<Q>::nothing();
     let (free, turns) = (Q::from(pace.free), Q::from(pace.turns));
-    for g in 0..m.rows.len() {
-        let (row, spin, forces) = (&mut m.rows[g].0, &mut m.spins[g].0, &mut m.forces[g].0);
-        let (contact, lever) = (Q::load(forces, 0), Q::load(forces, 4));
-        *forces = [0.0; 8];
-        let half = &mut m.halves[g].0;
-        let push = field.push(&pace.tick, &grain_at(row, spin, half, m.tags[g]));
-        let outside = Q::from(push.gravity) + Q::from(push.frame) + Q::from(push.fluid);
-        let mut none = [0.0; 12];
-        let higher = if S::HIGHER { &mut m.higher[g] } else { &mut none };
+    let mut g = 0;
+    while g < m.rows.len() {
+        let chunk = g..m.rows.len().min(g + CHUNK);
+        g = chunk.end;
+        for g in chunk.clone() {
+            let (row, spin, forces) = (&mut m.rows[g].0, &mut m.spins[g].0, &mut m.forces[g].0);
+            let (contact, lever) = (Q::load(forces, 0), Q::load(forces, 4));
+            *forces = [0.0; 8];
+            let half = &mut m.halves[g].0;
+            let push = field.push(&pace.tick, &grain_at(row, spin, half, m.tags[g]));
+            let outside = Q::from(push.gravity) + Q::from(push.frame) + Q::from(push.fluid);
+            let mut none = [0.0; 12];
+            let higher = if S::HIGHER { &mut m.higher[g] } else { &mut none };
 
-        let acceleration = (contact + outside) * row[7] * free;
-        let (position, velocity) = (Q::load(row, 0), Q::load(row, 4));
-        let moved = S::translate(position, velocity, half, higher, acceleration, pace);
-        moved.position.with(row[3]).store(row, 0);
-        moved.velocity.with(row[7]).store(row, 4);
+            let acceleration = (contact + outside) * row[7] * free;
+            let (position, velocity) = (Q::load(row, 0), Q::load(row, 4));
+            let moved = S::translate(position, velocity, half, higher, acceleration, pace);
+            moved.position.with(row[3]).store(row, 0);
+            moved.velocity.with(row[7]).store(row, 4);
 
-        let mut turned = Q::splat(0.0);
-        if pace.rotation {
-            let couple = m.couples.get(g).map_or(Q::splat(0.0), |c| Q::of(c.0));
-            // half[7] is r/I and spin[3] is 1/r: torque over inertia.
-            let torque = (couple + Q::from(push.torque)) * spin[3] - lever;
-            let alpha = torque * half[7] * turns;
-            let omega = Q::load(spin, 0) * spin[3];
-            let (mid, omega) = S::rotate(omega, half, higher, alpha, pace);
-            turned = mid;
-            (omega * row[3]).with(spin[3]).store(spin, 0);
-            rotation::turn(&mut m.rest[g].orientation, Q::load(half, 4) * (0.5 * pace.tick.dt));
+            let mut turned = Q::splat(0.0);
+            if pace.rotation {
+                let couple = m.couples.get(g).map_or(Q::splat(0.0), |c| Q::of(c.0));
+                // half[7] is r/I and spin[3] is 1/r: torque over inertia.
+                let torque = (couple + Q::from(push.torque)) * spin[3] - lever;
+                let alpha = torque * half[7] * turns;
+                let omega = Q::load(spin, 0) * spin[3];
+                let (mid, omega) = S::rotate(omega, half, higher, alpha, pace);
+                turned = mid;
+                (omega * row[3]).with(spin[3]).store(spin, 0);
+            }
+            sums.note(pace, &push, &moved, turned);
         }
-        sums.note(pace, &push, &moved, turned);
+        if pace.rotation {
+            for g in chunk {
+                rotation::turn(&mut m.rest[g].orientation, Q::load(&m.halves[g].0, 4) * (0.5 * pace.tick.dt));
+            }
+        }
     }
     sums.passed()
 }

@@ -8,9 +8,10 @@ use super::quad::Quad;
 pub fn turn<Q: Quad>(q: &mut [f64; 4], half: Q) {
     let ([x, y, z, w], [a, b, c, _]) = (*q, half.lanes());
     let new = Q::of(*q) + Q::of([w, -z, y, -x]) * a + Q::of([z, w, -x, -y]) * b + Q::of([-y, x, w, -z]) * c;
-    // One Newton step of 1/sqrt: the length is 1 up to the square of the angle.
-    let [x, y, z, w] = (new * new).lanes();
-    (new * (1.5 - 0.5 * ((x + y) + (z + w)))).store(q, 0);
+    // One Newton step of 1/sqrt for the length of the product, which is that of the factors: their squares are
+    // there before it.
+    let [x, y, z, _] = (Q::of(*q) * Q::of(*q) + half * half).lanes();
+    (new * (1.5 - 0.5 * ((x + y) + (z + w * w)))).store(q, 0);
 }
 
 #[cfg(test)]
