@@ -328,7 +328,8 @@ impl ResolvedWork {
     fn follow(&self, spec: &Resolved, grains: &Grains, loads: &mut [Load]) {
         for (k, load) in loads.iter_mut().enumerate() {
             let displaced = spec.density * spec.body.volume(grains.radius[k]);
-            let share = forcing::following(grains.mass[k] / displaced, grains.radius[k] / self.spacing);
+            let points = grains.radius[k] / self.spacing;
+            let share = forcing::following(spec.body, grains.mass[k] / displaced, points);
             if share < 1.0 {
                 *load = *load * share;
                 *load += self.loads_before[k] * (1.0 - share);

@@ -141,7 +141,7 @@ impl Sheet {
                 Method::Forcing(f) => {
                     self.line(format!("tracers of {}", p.name), tracers.to_string());
                     self.line("sweeps", f.sweeps.to_string());
-                    let share = forcing::following(p.density / spec.density, p.radius / h);
+                    let share = forcing::following(spec.body, p.density / spec.density, p.radius / h);
                     if share < 1.0 {
                         self.line(
                             format!("virtual mass of {}", p.name),
