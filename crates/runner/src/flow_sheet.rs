@@ -21,7 +21,8 @@ const PER_AVERAGED_GRAIN: f64 = 1.3e-6;
 const WORDS: f64 = 16.0;
 
 /// Seconds that a step of the flow is estimated to take on one core, with what joins it to the grains but without
-/// these; the multiples are those measured for the tilting bed (docs/performance.md).
+/// these. A cell inside a resolved grain costs as much as so many others: measured with the tilting bed, a fifth of
+/// whose cells are (docs/performance.md).
 pub fn step_time(b: &Built) -> f64 {
     let (coupling, spec) = match &b.plan.medium {
         Medium::Coupled(coupling, spec) => (Some(coupling), spec),
@@ -32,11 +33,13 @@ pub fn step_time(b: &Built) -> f64 {
     match coupling.map(|c| &**c) {
         Some(CouplingSpec::Averaged(_)) => flow + PER_AVERAGED_GRAIN * b.plan.start.len() as f64,
         Some(CouplingSpec::Resolved(r)) => {
-            flow * match r.method {
-                Method::Springs(_) => 1.9,
-                Method::Template => 3.0,
-                Method::Forcing(_) => 7.9,
-            }
+            let solid: f64 = b.plan.start.radius.iter().map(|&a| r.body.volume(a)).sum();
+            let each = match r.method {
+                Method::Springs(_) => 4.6,
+                Method::Template => 10.0,
+                Method::Forcing(_) => 36.0,
+            };
+            flow + PER_CELL * each * solid / spec.grid.cell_volume()
         }
         _ => flow,
     }
