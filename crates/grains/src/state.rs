@@ -155,8 +155,8 @@ pub struct Pairs {
     pub class: Vec<u8>,
     /// Number of real pairs in the inner list.
     pub len: usize,
-    /// Contact memory: by batch of eight, then slot, then lane.
-    pub memory: Vec<f64>,
+    /// Contact memory: by batch of eight, then slot.
+    pub memory: Vec<Line>,
     /// Who touched when last swept: a byte per batch, a bit per pair.
     pub touched: Vec<u8>,
 }
@@ -173,7 +173,7 @@ pub struct WallPairs {
     /// Pair class.
     pub class: Vec<u8>,
     /// Contact memory, as in [`Pairs`].
-    pub memory: Vec<f64>,
+    pub memory: Vec<Line>,
     /// Who touched when last swept, as in [`Pairs`].
     pub touched: Vec<u8>,
 }
@@ -181,11 +181,29 @@ pub struct WallPairs {
 /// Batches are padded to this many lanes.
 pub const BATCH: usize = 8;
 
-/// Place of slot `s` of contact `p` in a memory array.
+/// One number that each contact of a batch remembers: a cache line, which a sweep reads and writes whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[repr(C, align(64))]
+pub struct Line(pub [f64; BATCH]);
+
+/// Line and lane of slot `s` of contact `p` in a memory array.
 #[inline(always)]
 #[must_use]
-pub fn memory_place(p: usize, s: usize, slots: usize) -> usize {
-    (p / BATCH * slots + s) * BATCH + p % BATCH
+pub fn memory_place(p: usize, s: usize, slots: usize) -> (usize, usize) {
+    (p / BATCH * slots + s, p % BATCH)
+}
+
+/// What contact `p` remembers in slot `s`.
+#[must_use]
+pub fn remembered(memory: &[Line], p: usize, s: usize, slots: usize) -> f64 {
+    let (line, lane) = memory_place(p, s, slots);
+    memory[line].0[lane]
+}
+
+/// Lets contact `p` remember `x` in slot `s`.
+pub fn note(memory: &mut [Line], p: usize, s: usize, slots: usize, x: f64) {
+    let (line, lane) = memory_place(p, s, slots);
+    memory[line].0[lane] = x;
 }
 
 /// Whether contact `p` touched when last swept.

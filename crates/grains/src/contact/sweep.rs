@@ -5,7 +5,7 @@ use super::pair::{Answer, Law, energy};
 use super::real::{Mask, Real, V3};
 use crate::lanes::{Adds, Wide};
 use crate::packed::{Couple, Force, INDEX, INDEX_BITS, Row, Shifts, Spin};
-use crate::state::BATCH;
+use crate::state::{BATCH, Line, memory_place};
 
 /// One list of pairs to evaluate.
 pub struct PairJob<'a> {
@@ -22,7 +22,7 @@ pub struct PairJob<'a> {
     /// Number of real pairs.
     pub len: usize,
     /// Contact memory.
-    pub memory: &'a mut [f64],
+    pub memory: &'a mut [Line],
     /// Who touched when last swept, a bit each.
     pub touched: &'a mut [u8],
     /// Where forces are added.
@@ -72,19 +72,21 @@ pub(super) fn tally<R: Wide>(sums: &mut [f64; BATCH], at: usize, x: R) {
 
 /// Reads the memory of the contacts from `p` on.
 #[inline(always)]
-pub(super) fn recall<R: Wide>(memory: &[f64], p: usize, slots: usize) -> [R; MAX_SLOTS] {
+pub(super) fn recall<R: Wide>(memory: &[Line], p: usize, slots: usize) -> [R; MAX_SLOTS] {
     let mut m = [R::zero(); MAX_SLOTS];
     for s in 0..slots {
-        m[s] = R::load(&memory[crate::state::memory_place(p, s, slots)..]);
+        let (line, lane) = memory_place(p, s, slots);
+        m[s] = R::load(&memory[line].0[lane..]);
     }
     m
 }
 
 /// Writes it back.
 #[inline(always)]
-pub(super) fn remember<R: Wide>(m: &[R; MAX_SLOTS], memory: &mut [f64], p: usize, slots: usize) {
+pub(super) fn remember<R: Wide>(m: &[R; MAX_SLOTS], memory: &mut [Line], p: usize, slots: usize) {
     for s in 0..slots {
-        m[s].store(&mut memory[crate::state::memory_place(p, s, slots)..]);
+        let (line, lane) = memory_place(p, s, slots);
+        m[s].store(&mut memory[line].0[lane..]);
     }
 }
 

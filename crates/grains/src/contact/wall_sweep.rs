@@ -6,7 +6,7 @@ use super::real::{Mask, V3};
 use super::sweep::{Tally, account, begins, recall, remember, tally};
 use crate::lanes::Wide;
 use crate::packed::{Couple, Force, Row, Spin};
-use crate::state::BATCH;
+use crate::state::{BATCH, Line};
 use crate::wall::{WallLoad, Walls};
 use brazilnut_base::vec3;
 
@@ -21,7 +21,7 @@ pub struct WallJob<'a> {
     /// Pair class, empty if there is only one.
     pub class: &'a [u8],
     /// Contact memory.
-    pub memory: &'a mut [f64],
+    pub memory: &'a mut [Line],
     /// Who touched when last swept, a bit each.
     pub touched: &'a mut [u8],
     /// Where forces are added.

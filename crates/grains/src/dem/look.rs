@@ -5,7 +5,7 @@ use crate::contact::law::MAX_SLOTS;
 use crate::contact::{Answer, Touch, V3, energy};
 use crate::ledger::Ledger;
 use crate::packed::{INDEX, INDEX_BITS, image_of};
-use crate::state::{DemState, Pairs, memory_place};
+use crate::state::{DemState, Line, Pairs, remembered};
 use crate::wall::Walls;
 use brazilnut_base::{Vec3, vec3};
 
@@ -130,11 +130,11 @@ impl Dem {
         }
     }
 
-    fn ask(&self, class: &[u8], memory: &[f64], p: usize, touch: &Touch<f64>) -> Answer<f64> {
+    fn ask(&self, class: &[u8], memory: &[Line], p: usize, touch: &Touch<f64>) -> Answer<f64> {
         let slots = self.law.slots();
         let mut m = [0.0; MAX_SLOTS];
         for s in 0..slots {
-            m[s] = memory[memory_place(p, s, slots)];
+            m[s] = remembered(memory, p, s, slots);
         }
         self.law.single(class.get(p).map_or(0, |&c| usize::from(c)), touch, &mut m)
     }

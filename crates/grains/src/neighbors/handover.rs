@@ -5,7 +5,7 @@
 
 use super::room::hold;
 use crate::packed::{INDEX, INDEX_BITS, Rest, Tag, image_of};
-use crate::state::{Lists, has_touched, memory_place};
+use crate::state::{Line, Lists, has_touched, remembered};
 
 /// The contacts that touched when last swept.
 #[derive(Clone, Debug, Default)]
@@ -58,7 +58,7 @@ impl Handover {
             self.start[key.low as usize] += 1;
             self.others[place] = key.other;
             for (s, value) in self.values[place * slots..][..slots].iter_mut().enumerate() {
-                let x = memory[memory_place(p, s, slots)];
+                let x = remembered(memory, p, s, slots);
                 *value = if swapped && odd >> s & 1 == 1 { -x } else { x };
             }
         });
@@ -100,7 +100,7 @@ impl Handover {
 
 /// Calls `found` with the key, whether its bodies are swapped, and memory and place of every contact that touched
 /// when last swept: none of the others remembers anything. A pair of two blocks is taken from its first.
-fn each(lists: &[Lists], tags: &[Tag], rest: &[Rest], mut found: impl FnMut(Key, bool, &[f64], usize)) {
+fn each(lists: &[Lists], tags: &[Tag], rest: &[Rest], mut found: impl FnMut(Key, bool, &[Line], usize)) {
     for list in lists {
         for pairs in [&list.inside, &list.first, &list.big] {
             for p in (0..pairs.len).filter(|&p| has_touched(&pairs.touched, p)) {

@@ -6,7 +6,7 @@ use crate::contact::Mask;
 use crate::contact::V3;
 use crate::lanes::Wide;
 use crate::packed::{DUMMIES, INDEX, INDEX_BITS, Row, Shifts, Tag, image_of};
-use crate::state::{BATCH, Pairs, has_touched, memory_place, note_touched};
+use crate::state::{BATCH, Line, Pairs, has_touched, note, note_touched, remembered};
 
 /// Where the memory of a pair comes from.
 #[derive(Clone, Copy)]
@@ -59,7 +59,7 @@ impl Spare {
 
     /// Moves what entries remember from their old places among the first `old` to those of `new`; zero where an
     /// entry is new. Both lists are sorted by their place in the outer one. `touched` has a bit for each.
-    pub fn carry(&self, old: usize, new: &[u32], memory: &mut Vec<f64>, touched: &mut [u8], slots: usize) {
+    pub fn carry(&self, old: usize, new: &[u32], memory: &mut Vec<Line>, touched: &mut [u8], slots: usize) {
         let old = &self.from[..old];
         let padded = touched.len() * BATCH;
         // To the front first, in order, so that nothing is written over before it is read, then apart from the back.
@@ -74,8 +74,8 @@ impl Spare {
                 kept += 1;
             }
         }
-        hold(memory, padded * slots);
-        memory.resize(padded * slots, 0.0);
+        hold(memory, touched.len() * slots);
+        memory.resize(touched.len() * slots, Line::default());
         for p in new.len()..padded {
             clear(memory, p, slots);
         }
@@ -97,15 +97,15 @@ impl Spare {
     }
 }
 
-fn shift(memory: &mut [f64], from: usize, to: usize, slots: usize) {
+fn shift(memory: &mut [Line], from: usize, to: usize, slots: usize) {
     for s in 0..slots {
-        memory[memory_place(to, s, slots)] = memory[memory_place(from, s, slots)];
+        note(memory, to, s, slots, remembered(memory, from, s, slots));
     }
 }
 
-fn clear(memory: &mut [f64], p: usize, slots: usize) {
+fn clear(memory: &mut [Line], p: usize, slots: usize) {
     for s in 0..slots {
-        memory[memory_place(p, s, slots)] = 0.0;
+        note(memory, p, s, slots, 0.0);
     }
 }
 
@@ -176,13 +176,13 @@ impl Prune<'_> {
             Memory::Kept => spare.carry(old, &pairs.from, &mut pairs.memory, &mut pairs.touched, slots),
             Memory::Handed(handover) => {
                 pairs.memory.clear();
-                hold(&mut pairs.memory, pairs.i.len() * slots);
-                pairs.memory.resize(pairs.i.len() * slots, 0.0);
+                hold(&mut pairs.memory, pairs.touched.len() * slots);
+                pairs.memory.resize(pairs.touched.len() * slots, Line::default());
                 for p in 0..pairs.len {
                     let (i, j) = (pairs.i[p] as usize, (pairs.j[p] & INDEX) as usize);
                     let image = image_of(pairs.j[p] >> INDEX_BITS);
                     let touched = handover.recall(self.tags, self.rest, (i, j, image), |s, x| {
-                        pairs.memory[memory_place(p, s, slots)] = x;
+                        note(&mut pairs.memory, p, s, slots, x);
                     });
                     if touched {
                         note_touched(&mut pairs.touched, p);
@@ -208,10 +208,10 @@ mod tests {
         for old in &lists {
             for new in &lists {
                 let room = old.len().next_multiple_of(BATCH);
-                let mut memory = vec![0.0; room * slots];
+                let mut memory = vec![Line::default(); room / BATCH * slots];
                 for (p, &place) in old.iter().enumerate() {
                     for s in 0..slots {
-                        memory[memory_place(p, s, slots)] = mark(place + 1, s);
+                        note(&mut memory, p, s, slots, mark(place + 1, s));
                     }
                 }
                 let mut spare = Spare { from: old.clone(), touched: vec![0; room / BATCH] };
@@ -219,14 +219,14 @@ mod tests {
                 let padded = new.len().next_multiple_of(BATCH);
                 let mut touched = vec![0; padded / BATCH];
                 spare.carry(old.len(), new, &mut memory, &mut touched, slots);
-                assert_eq!(memory.len(), padded * slots);
+                assert_eq!(memory.len(), padded / BATCH * slots);
                 for p in 0..padded {
                     let known = new.get(p).filter(|place| old.contains(place));
                     let before = known.and_then(|place| old.iter().position(|o| o == place));
                     assert_eq!(has_touched(&touched, p), before.is_some_and(|q| q % 3 == 0));
                     for s in 0..slots {
                         let wanted = known.map_or(0.0, |place| mark(place + 1, s));
-                        assert_eq!(memory[memory_place(p, s, slots)], wanted, "{old:?} to {new:?}");
+                        assert_eq!(remembered(&memory, p, s, slots), wanted, "{old:?} to {new:?}");
                     }
                 }
             }

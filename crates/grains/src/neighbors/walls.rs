@@ -2,7 +2,7 @@
 
 use super::inner::{Memory, Prune, Spare};
 use crate::packed::Row;
-use crate::state::{BATCH, WallPairs, memory_place, note_touched};
+use crate::state::{BATCH, Line, WallPairs, note, note_touched};
 use crate::wall::Walls;
 
 impl WallPairs {
@@ -50,10 +50,10 @@ impl Prune<'_> {
             Memory::Kept => spare.carry(old, &list.from, &mut list.memory, &mut list.touched, slots),
             Memory::Handed(handover) => {
                 list.memory.clear();
-                list.memory.resize(batches * BATCH * slots, 0.0);
+                list.memory.resize(batches * slots, Line::default());
                 for (p, &(row, wall, feature)) in list.inner.iter().enumerate() {
                     let touched = handover.recall_wall(self.tags[row as usize].id, wall, feature, |s, x| {
-                        list.memory[memory_place(p, s, slots)] = x;
+                        note(&mut list.memory, p, s, slots, x);
                     });
                     if touched {
                         note_touched(&mut list.touched, p);
