@@ -14,10 +14,10 @@ const CASE: (&str, &str) =
 const DIAMETER: f64 = 0.1;
 
 /// Frequency, Hz, and amplitude over diameter: Table 5.1, the amplitude of its middle row as its
-/// frequency and acceleration have it.
-const AMPLITUDES: [(f64, f64); 3] = [(7.0, 0.5), (7.878, 0.4), (9.996, 0.25)];
-/// Friction between grains and at the walls: two rows of Table 5.2.
-const FRICTIONS: [(f64, f64); 2] = [(0.8, 0.0), (0.0, 0.8)];
+/// frequency and acceleration have it and as printed.
+const AMPLITUDES: [(f64, f64); 4] = [(7.0, 0.5), (7.878, 0.4), (7.878, 0.3), (9.996, 0.25)];
+/// Friction between grains and at the walls: Table 5.2 without its first row, which is that of Table 5.1.
+const FRICTIONS: [(f64, f64); 3] = [(0.8, 0.2), (0.8, 0.0), (0.0, 0.8)];
 
 /// The same five layers in a cell 20 d wide (Fig. A5.7).
 const WIDE: [&str; 2] = ["cell.size=[\"2 m\", \"0.3 m\", \"2.1 m\"]", "grains.0.count=573"];
@@ -114,17 +114,20 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
     if request.quick {
         return quick(request);
     }
-    let [strong, middle, weak] = AMPLITUDES.map(|a| amplitude(a, request));
-    let [strong, middle, weak] = [strong?, middle?, weak?];
-    let [smooth_walls, smooth_grains] = FRICTIONS.map(|f| friction(f, request));
-    let [smooth_walls, smooth_grains] = [smooth_walls?, smooth_grains?];
+    let [strong, middle, printed, weak] = AMPLITUDES.map(|a| amplitude(a, request));
+    let [strong, middle, printed, weak] = [strong?, middle?, printed?, weak?];
+    let [less, smooth_walls, smooth_grains] = FRICTIONS.map(|f| friction(f, request));
+    let [less, smooth_walls, smooth_grains] = [less?, smooth_walls?, smooth_grains?];
     let wide = Bed::new("20d cell".into(), &WIDE.map(String::from), request)?;
     let computed = vec![
         strong.speed(),
         middle.speed(),
+        printed.speed(),
         weak.speed(),
         ratio("speed at 0.5 d over that at 0.25 d", &strong, &weak),
         strong.along_the_walls(),
+        less.along_the_walls(),
+        ratio("speed with wall friction 0.8 over that with 0.2", &strong, &less),
         smooth_walls.along_the_walls(),
         smooth_grains.along_the_walls(),
         strong.down_stream(),
@@ -135,11 +138,12 @@ pub fn run(request: &Request) -> Result<Ran, Failure> {
     let figures = vec![
         strong.map("a 0.5 d, 7 Hz, friction 0.8 (Fig. A5.1c)"),
         weak.map("a 0.25 d, 9.996 Hz, friction 0.8 (Fig. A5.1a)"),
+        less.map("friction 0.8, at the walls 0.2 (Fig. A5.4)"),
         smooth_walls.map("rough grains, smooth walls (Fig. A5.5)"),
         smooth_grains.map("smooth grains, rough walls (Fig. A5.6)"),
         wide.map("a 0.5 d, 7 Hz, friction 0.8, cell of 20 d (Fig. A5.7)"),
-        speeds(&[&strong, &middle, &weak]),
-        vertical(&[&strong, &smooth_walls, &smooth_grains, &wide]),
+        speeds(&[&strong, &middle, &printed, &weak]),
+        vertical(&[&strong, &less, &smooth_walls, &smooth_grains, &wide]),
     ];
     Ok(Ran { computed, figures })
 }
