@@ -154,8 +154,7 @@ impl Question {
 
     /// The plan of the `k`-th coupling.
     fn method(&self, k: usize, points: usize, re: f64) -> Plan {
-        let [a, b, c, d] = methods(&(self.plan)(points, re)).map(|(_, plan)| plan);
-        [a, b, c, d][k].clone()
+        methods(&(self.plan)(points, re))[k].1.clone()
     }
 
     /// The answer, and the rig that gave it. From the flow of half as many points, until a span changes it by less

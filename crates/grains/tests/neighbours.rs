@@ -89,6 +89,24 @@ fn cells_and_lists_find_what_testing_all_pairs_finds() {
     }
 }
 
+/// The outer skin follows the speed: fast grains would use up that of slow ones in a few steps.
+#[test]
+fn lists_of_fast_grains_last() {
+    let (r, size) = (1e-3, Vec3::splat(30e-3));
+    let mut s = spec(0.0, Side::Periodic, 5e-6, pair(1e4, 0.9));
+    s.cell.size = size;
+    let grains = cloud(200, r, size, 2.0, 3.0, 3);
+    let builds = |skin: Option<f64>| {
+        let mut s = s.clone();
+        s.search.skin = skin;
+        let (_, state) = compare(s, &grains, 300);
+        state.counts().builds
+    };
+    // 0.15 and 0.45 of a diameter of 0.95 x 2 mm; the first lists are those of slow grains.
+    let (slow, fast, tuned) = (builds(Some(0.28e-3)), builds(Some(0.85e-3)), builds(None));
+    assert!(fast < slow / 2 && tuned <= fast + 2, "{slow} lists of slow, {fast} of fast grains, {tuned}");
+}
+
 #[test]
 fn a_big_body_touches_all_that_it_should() {
     let r = 1e-3;
