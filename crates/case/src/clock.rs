@@ -69,6 +69,10 @@ pub(crate) fn clock(
         return refuse(v, issues, format!("steps of {step:.3e} s in cycles of {cycle:.3e} s"));
     }
     let mut clock = Clock::new(step, grain, frequency, exact);
+    if v.table_opt(v.text("model")).is_some_and(|m| m.table_opt("lubrication").is_some()) {
+        // A film sees velocities at the end of a grain step, half of whose acceleration they do not keep.
+        clock.substeps = clock.substeps.max(2);
+    }
     clock.end = match t.every_opt("end")? {
         Every::Cycles(n) => clock.steps_per_cycle?.saturating_mul(n),
         Every::Time(end) => (end / clock.dt).round().max(1.0) as u64,

@@ -37,7 +37,7 @@ enum Rung {
 #[derive(Debug)]
 struct ResolvedWork {
     holder: Holder,
-    films: Films,
+    films: Option<Films>,
     /// What each grain gave to the fluid in the last step.
     given: Vec<Tally>,
     total: Tally,
@@ -66,7 +66,9 @@ impl Coupling {
                 medium = AveragedWork::medium(s.grid());
                 Rung::Averaged(Box::new(AveragedWork::new(a, s.grid(), &s.spec().solids)))
             }
-            (CouplingSpec::Resolved(r), Some(s)) => Rung::Resolved(Box::new(ResolvedWork::new(r, s, grains))),
+            (CouplingSpec::Resolved(r), Some(s)) => {
+                Rung::Resolved(Box::new(ResolvedWork::new(r, cell, s, grains)))
+            }
             _ => Rung::Still,
         };
         let hydrostatic = if spec.has_flow() { hydrostatic_axes(cell.sides) } else { Vec3::ONE };
@@ -136,7 +138,7 @@ impl Coupling {
                 state.exchange = Exchange { on_fluid: r.drag_on_fluid, on_grains: r.drag_on_grains };
             }
             (CouplingSpec::Resolved(spec), Rung::Resolved(work)) => {
-                work.after_fluid(spec, &self.cell, grains, flow, state, dt);
+                work.after_fluid(spec, grains, flow, state, dt);
             }
             _ => {}
         }
@@ -177,7 +179,7 @@ impl During<'_> {
 }
 
 impl ResolvedWork {
-    fn new(spec: &Resolved, solver: &Solver, grains: &Grains) -> Self {
+    fn new(spec: &Resolved, cell: Cell, solver: &Solver, grains: &Grains) -> Self {
         let grid = solver.grid();
         let work = || {
             let r = &grains.radius;
@@ -199,7 +201,7 @@ impl ResolvedWork {
         };
         Self {
             holder,
-            films: Films::default(),
+            films: spec.lubrication.map(|law| Films::new(law, spec.viscosity, cell)),
             given: vec![Tally::default(); n],
             total: Tally::default(),
             cell_volume: grid.cell_volume(),
@@ -273,7 +275,6 @@ impl ResolvedWork {
     fn after_fluid(
         &mut self,
         spec: &Resolved,
-        cell: &Cell,
         grains: &Grains,
         flow: &Flow,
         state: &mut CouplingState,
@@ -316,24 +317,21 @@ impl ResolvedWork {
                 state.leak.book(&slip);
             }
         }
-        if let Some(law) = &spec.lubrication {
-            self.films.add(law, spec.viscosity, cell, grains, dt, &mut state.loads);
-        }
-        if let Holder::Forcing { .. } = self.holder {
-            self.follow(spec, grains, &mut state.loads);
-        }
-    }
-
-    /// Lets the loads of light bodies, films included, follow the new ones in part.
-    fn follow(&self, spec: &Resolved, grains: &Grains, loads: &mut [Load]) {
-        for (k, load) in loads.iter_mut().enumerate() {
-            let displaced = spec.density * spec.body.volume(grains.radius[k]);
-            let points = grains.radius[k] / self.spacing;
-            let share = forcing::following(spec.body, grains.mass[k] / displaced, points);
-            if share < 1.0 {
-                *load = *load * share;
-                *load += self.loads_before[k] * (1.0 - share);
+        let forced = matches!(self.holder, Holder::Forcing { .. });
+        let spacing = self.spacing;
+        // How far a grain's load follows new forces: light bodies of `direct-forcing` carry a virtual mass.
+        let share = |k: usize| {
+            let (r, displaced) = (grains.radius[k], spec.density * spec.body.volume(grains.radius[k]));
+            if forced { forcing::following(spec.body, grains.mass[k] / displaced, r / spacing) } else { 1.0 }
+        };
+        if forced {
+            for (k, load) in state.loads.iter_mut().enumerate() {
+                *load = *load * share(k);
+                *load += self.loads_before[k] * (1.0 - share(k));
             }
+        }
+        if let Some(films) = &mut self.films {
+            films.add(grains, dt, &mut state.loads, share);
         }
     }
 }

@@ -4,6 +4,7 @@ mod common;
 
 use brazilnut_base::{Side, Vec3, vec3};
 use brazilnut_coupling::Method;
+use brazilnut_coupling::resolved::lubrication::Lubrication;
 use brazilnut_fluid::Advection;
 use common::{ETA, NU, Plan, RHO, Rig, forcing, rig, springs_for};
 use std::f64::consts::PI;
@@ -175,6 +176,39 @@ fn direct_forcing_bears_cylinders_lighter_than_their_added_mass() {
         let smeared = (1.0 + 0.5 / points).powi(2) - 1.0;
         let (least, most) = (rise(1.01 + 2.0 * smeared), rise(1.0));
         assert!((least..=most).contains(&-got), "{points} {ratio}: {got} within {least} and {most}");
+    }
+}
+
+/// A film that stops a body within a step, to which the fluid answers one step later: neither may pump up the other.
+#[test]
+fn tight_films_stop_a_sphere_in_every_coupling() {
+    let h = Plan::cube(24, forcing()).spacing;
+    let lubrication = Some(Lubrication { min_gap: 1e-4 * h, max_gap: h });
+    let base = Plan { lubrication, sides: [Side::Walls; 3], substeps: 2, ..Plan::cube(24, forcing()) };
+    let template = Plan { method: Method::Template, ..base.clone() };
+    for (plan, ratio) in [
+        (base.clone(), 0.3),
+        (base.clone(), 0.9),
+        (base.clone(), 2.5),
+        (base.clone(), 8.9),
+        (springs_for(&base, 0.79), 1.8),
+        (springs_for(&base, 0.79), 8.9),
+        (springs_for(&base, 0.09), 2.5),
+        (template.clone(), 1.5),
+        (template, 2.5),
+    ] {
+        let method = plan.method;
+        let mut rig = rig(plan, &[(vec3(12.0, 12.0, 3.001) * h, 3.0 * h, ratio)]);
+        let speed = 1e-5;
+        rig.launch(Vec3::Z * -speed, Vec3::ZERO);
+        let mut speeds = vec![];
+        for _ in 0..60 {
+            rig.step(Vec3::ZERO, Vec3::ZERO, Vec3::ZERO);
+            speeds.push(rig.grains.velocity[0].z.abs() / speed);
+        }
+        assert!(speeds.iter().all(|w| *w < 1.0), "{method:?} {ratio}: {speeds:.2?}");
+        // The film is a ten-thousandth of a spacing: what is left dies out with the flow around the sphere.
+        assert!(speeds[40..].iter().all(|w| *w < 0.02), "{method:?} {ratio}: {speeds:.3?}");
     }
 }
 

@@ -46,10 +46,15 @@ struct Film {
     resistance: f64,
 }
 
-/// Buffers of the pair search.
-#[derive(Clone, Debug, Default)]
+/// The films of a cell, and buffers of their search.
+#[derive(Clone, Debug)]
 pub struct Films {
+    law: Lubrication,
+    viscosity: f64,
+    cell: Cell,
     films: Vec<Film>,
+    /// Velocity of each grain at the end of the step but for its films, m/s.
+    ahead: Vec<Vec3>,
     /// Number of films of each grain.
     degree: Vec<u32>,
     starts: Vec<u32>,
@@ -57,52 +62,57 @@ pub struct Films {
 }
 
 impl Films {
+    /// No films yet; in a fluid of `viscosity` (Pa s).
+    #[must_use]
+    pub fn new(law: Lubrication, viscosity: f64, cell: Cell) -> Self {
+        let (films, ahead, degree, starts, sorted) = (vec![], vec![], vec![], vec![], vec![]);
+        Self { law, viscosity, cell, films, ahead, degree, starts, sorted }
+    }
+
     /// Number of films found last.
     #[must_use]
     pub fn count(&self) -> usize {
         self.films.len()
     }
 
-    /// Adds the lubrication forces to `loads`, as means over a step of length `dt` (s).
+    /// Adds the lubrication forces to `loads`, as means over a step of length `dt` (s). A grain's load takes up
+    /// `share(k)` of a force, the rest being spent on its virtual mass.
     ///
-    /// Each film is taken implicitly in its own approach speed, with the grains' masses shared among
-    /// their films: stable for any gap, and the explicit force where the step resolves it.
-    pub fn add(
-        &mut self,
-        law: &Lubrication,
-        viscosity: f64,
-        cell: &Cell,
-        grains: &Grains,
-        dt: f64,
-        loads: &mut [Load],
-    ) {
-        self.find(law, viscosity, cell, grains);
+    /// Each film is taken implicitly in the approach speed that the other loads leave, with the grains' masses shared
+    /// among their films: stable for any gap, and the explicit force where the step resolves it. The speed before the step
+    /// would not do: a film that stops a body would meet, one step late, the fluid's answer to the stop.
+    pub fn add(&mut self, grains: &Grains, dt: f64, loads: &mut [Load], share: impl Fn(usize) -> f64) {
+        self.find(grains);
+        self.ahead.clear();
+        let ahead = |k: usize| grains.velocity[k] + loads[k].force * (dt / grains.mass[k]);
+        self.ahead.extend((0..grains.len()).map(ahead));
         for f in &self.films {
             let i = f.first as usize;
-            let compliance = |k: usize| f64::from(self.degree[k]) / grains.mass[k];
+            let compliance = |k: usize| f64::from(self.degree[k]) * share(k) / grains.mass[k];
             let (v, c) = match f.second {
                 Some(j) => {
                     let j = j as usize;
-                    (grains.velocity[i] - grains.velocity[j], compliance(i) + compliance(j))
+                    (self.ahead[i] - self.ahead[j], compliance(i) + compliance(j))
                 }
-                None => (grains.velocity[i], compliance(i)),
+                None => (self.ahead[i], compliance(i)),
             };
             let force = -f.resistance * v.dot(f.normal) / (1.0 + f.resistance * dt * c) * f.normal;
-            loads[i].force += force;
+            loads[i].force += force * share(i);
             if let Some(j) = f.second {
-                loads[j as usize].force -= force;
+                loads[j as usize].force -= force * share(j as usize);
             }
         }
     }
 
     /// All films, in the order of identities.
-    fn find(&mut self, law: &Lubrication, viscosity: f64, cell: &Cell, grains: &Grains) {
+    fn find(&mut self, grains: &Grains) {
+        let (law, viscosity, cell) = (self.law, self.viscosity, self.cell);
         let n = grains.len();
         self.films.clear();
         self.degree.clear();
         self.degree.resize(n, 0);
         let largest = grains.radius.iter().copied().fold(0.0, f64::max);
-        let bins = Bins::new(cell, 2.0 * largest + law.max_gap);
+        let bins = Bins::new(&cell, 2.0 * largest + law.max_gap);
         self.sort(&bins, grains);
         for i in 0..n {
             let (x, r) = (grains.position[i], grains.radius[i]);
@@ -255,6 +265,10 @@ mod tests {
         grains.velocity[k] = v;
     }
 
+    fn films(viscosity: f64) -> Films {
+        Films::new(LAW, viscosity, cell())
+    }
+
     #[test]
     fn hand_value_between_two_spheres() {
         // r* = 0.25 mm, s = 10 um: 6 pi 1e-3 6.25e-8 (1e5 - 1e4) = 1.0603e-4 kg/s, at 0.2 m/s: 2.1206e-5 N.
@@ -263,7 +277,7 @@ mod tests {
         grain(&mut g, vec3(2.01e-3, 2e-3, 2e-3), vec3(-0.1, 5.0, 0.0));
         let mut loads = vec![Load::default(); 2];
         // A step so short that the implicit part does not count (1e-9 of the force).
-        Films::default().add(&LAW, 1e-3, &cell(), &g, 1e-11, &mut loads);
+        films(1e-3).add(&g, 1e-11, &mut loads, |_| 1.0);
         assert!((loads[0].force.x / -2.1206e-5 - 1.0).abs() < 1e-4, "{}", loads[0].force);
         assert_eq!(loads[0].force, -loads[1].force, "equal and opposite");
         assert_eq!(loads[0].force.y, 0.0, "only along the line of centres");
@@ -277,7 +291,7 @@ mod tests {
             grain(&mut g, vec3(1e-3, 2e-3, 2e-3), vec3(0.2, 0.0, 0.0));
             grain(&mut g, vec3(2e-3 + gap, 2e-3, 2e-3), Vec3::ZERO);
             let mut loads = vec![Load::default(); 2];
-            Films::default().add(&LAW, 1e-3, &cell(), &g, 1e-11, &mut loads);
+            films(1e-3).add(&g, 1e-11, &mut loads, |_| 1.0);
             -loads[0].force.x
         };
         assert_eq!(force(1.0001 * LAW.max_gap), 0.0);
@@ -297,9 +311,9 @@ mod tests {
         let mut g = Grains::default();
         grain(&mut g, vec3(0.2e-3, 2e-3, 0.51e-3), vec3(0.0, 0.0, -0.1));
         grain(&mut g, vec3(4.25e-3, 2e-3, 0.55e-3), vec3(0.0, 0.0, 0.0));
-        let mut films = Films::default();
+        let mut films = films(1e-3);
         let mut loads = vec![Load::default(); 2];
-        films.add(&LAW, 1e-3, &cell(), &g, 1e-9, &mut loads);
+        films.add(&g, 1e-9, &mut loads, |_| 1.0);
         // Each grain and the floor, and the pair across the periodic side.
         assert_eq!(films.count(), 3);
         assert!(loads[0].force.z > 0.0);
@@ -316,7 +330,7 @@ mod tests {
         }
         let dt = 1.0;
         let mut loads = vec![Load::default(); 7];
-        Films::default().add(&LAW, 1.0, &cell(), &g, dt, &mut loads);
+        films(1.0).add(&g, dt, &mut loads, |_| 1.0);
         for k in 1..7 {
             let v = g.velocity[k] + dt * loads[k].force / g.mass[k];
             let n = -g.velocity[k].normalize();
@@ -336,8 +350,8 @@ mod tests {
             grain(&mut g, cell.size * u, Vec3::ZERO);
             g.radius[k as usize] = 1e-4 * (1.0 + (t * 0.41).fract());
         }
-        let mut films = Films::default();
-        films.find(&LAW, 1.0, &cell, &g);
+        let mut films = films(1.0);
+        films.find(&g);
         let mut expected = 0;
         for i in 0..g.len() {
             for j in i + 1..g.len() {

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test file uses its part")]
 
 use brazilnut_base::{Cell, Side, Tick, Vec3};
+use brazilnut_coupling::resolved::lubrication::Lubrication;
 use brazilnut_coupling::resolved::{Forcing, Inertia, Layout, RETRACTION, Springs, Strength};
 use brazilnut_coupling::transfer::KernelName;
 use brazilnut_coupling::{Body, Coupling, CouplingSpec, CouplingState, Held, Method, Resolved, Still};
@@ -30,6 +31,7 @@ pub struct Plan {
     pub substeps: u64,
     /// Speed at which fluid enters at low x and leaves at high x, between slippery sides, m/s.
     pub stream: Option<f64>,
+    pub lubrication: Option<Lubrication>,
 }
 
 impl Plan {
@@ -45,6 +47,7 @@ impl Plan {
             rotation: true,
             substeps: 1,
             stream: None,
+            lubrication: None,
         }
     }
 
@@ -105,7 +108,7 @@ pub fn rig(plan: Plan, bodies: &[(Vec3, f64, f64)]) -> Rig {
         kernel: KernelName::Trilinear,
         layout: if lattice { Layout::Lattice } else { Layout::Shells },
         retraction: RETRACTION,
-        lubrication: None,
+        lubrication: plan.lubrication,
         density: RHO,
         viscosity: ETA,
         body,
