@@ -21,7 +21,7 @@ fn stiffness(boundary: f64) -> f64 {
 const DIAMETER: f64 = 0.1;
 
 /// What the short form lays over the case.
-const QUICK: [&str; 2] = ["time.end=5 s", "observe.0.from=2 s"];
+const QUICK: [&str; 2] = ["time.end=14 s", "observe.0.from=2 s"];
 
 fn bed((grains, hold_up, boundary): (u32, f64, f64), request: &Request) -> Result<Bed, Failure> {
     let velocity = boundary * (2.0 * DIAMETER * GRAVITY).sqrt();
