@@ -20,7 +20,7 @@ const POINTS: Key = Key::default(
 const LUBRICATION: Key = Key::optional(
     "lubrication",
     Kind::Table { keys: FILMS, shorthand: Some("max_gap") },
-    "Lubrication below the grid scale; off if left out.",
+    "Lubrication below the grid scale, with two grain steps or more in a fluid step; off if left out.",
 );
 
 const KERNEL: Key =
